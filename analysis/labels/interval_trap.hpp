@@ -1,0 +1,40 @@
+// Traps of one-dimensional return maps whose branches have a hump above a (possibly shifted) semi-stable
+// point: the immediate basin between the unstable fixed point and the hump's right preimage of it, found
+// numerically, and what attracts inside. Source: models/passive_hopper.md section 5, CPRR Fig. 8.
+#pragma once
+
+#include "analysis/labels/return_map_samples.hpp"
+#include "kernels/contract/info.hpp"
+
+#include <optional>
+
+namespace hopscotch {
+
+enum class attractor_kind : std::uint8_t { resting, fixed_point, cycle, chaotic };
+
+/// An interval that the map sends into itself, with the attractor that it holds.
+struct interval_trap {
+    double lowest = 0.0;
+    double highest = 0.0;
+    attractor_kind kind = attractor_kind::fixed_point;
+    int period = 1;              // 0 = aperiodic
+    std::vector<double> points;  // of the cycle, rising; for chaos: hull of the attractor
+    double multiplier = 0.0;     // of the cycle; for chaos the exponent per return
+};
+
+/// The trap on one branch, if there is one.
+///
+/// \param map     the return map
+/// \param branch  its continuous piece, from the model
+/// \param floor   the previous branch's end: how far left of `base` to look
+/// \return        nothing where no orbit stays on the branch (or after a boundary crisis)
+std::optional<interval_trap> find_interval_trap(const return_map_samples& map,
+                                                const map_branch& branch, double floor);
+
+/// What a critical orbit settles on inside an invariant interval.
+///
+/// \param start   a point of the interval (the hump's top: its orbit finds every attractor with a
+///                negative Schwarzian derivative)
+void identify_attractor(const return_map_samples& map, double start, interval_trap& trap);
+
+}  // namespace hopscotch

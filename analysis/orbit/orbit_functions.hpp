@@ -1,0 +1,70 @@
+// Single orbits of a model in any arithmetic: what `eval --precision`, `--derivative`, `trace`, `replay`
+// and the audit call. Filled per model by a generated unit; numbers travel as decimal text so that no
+// precision is lost on the way.
+#pragma once
+
+#include "kernels/contract/info.hpp"
+#include "kernels/ensemble/request.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hopscotch {
+
+/// One orbit to compute. Columns and parameters are decimals of any length, in the order of model_info.
+struct orbit_row {
+    int section = 0;
+    const int* options = nullptr;
+    int variant = 0;  // compile-time variant, from model_entry::variant
+    std::span<const std::string> columns;
+    std::span<const std::string> parameters;
+    std::uint32_t returns = 1;
+    double max_steps = 1e5;  // per return
+    bool derivative = false;
+
+    // to label the orbit instead of counting its returns
+    decision decided_by = decision::returns;
+    std::span<const trap_interval> traps;
+    std::int16_t died_label = 0;
+};
+
+struct orbit_answer {
+    outcome end = outcome::ok;
+    int label = 0;
+    std::uint32_t returns = 0;
+    std::uint64_t events = 0;
+    std::string time;
+    std::vector<std::string> columns;     // of the section the returns end on; empty where there is no state
+    std::vector<std::string> extras;
+    std::vector<std::string> derivative;  // d(column i)_d(start column j), row by row
+};
+
+/// Watches one orbit (see kernels/contract/watch.hpp). `sampler(t, columns)` gives the state t after the
+/// beginning of the phase.
+struct orbit_observer {
+    struct sampler {
+        virtual void state_at(double t, double* columns) const = 0;
+
+      protected:
+        ~sampler() = default;
+    };
+    virtual void phase(const char* mode, double start_time, double duration, const sampler& at) = 0;
+    virtual void event(const char* name, double time, const char* mode_left,
+                       const char* mode_entered, const double* before, const double* after,
+                       double loss) = 0;
+
+  protected:
+    ~orbit_observer() = default;
+};
+
+/// The orbits of one model.
+struct orbit_functions {
+    orbit_answer (*run_double)(const orbit_row&);
+    orbit_answer (*run_dd)(const orbit_row&);
+    orbit_answer (*run_mp50)(const orbit_row&);
+    orbit_answer (*trace)(const orbit_row&, orbit_observer&);  // in double
+};
+
+}  // namespace hopscotch

@@ -1,0 +1,41 @@
+# Turns model headers into instantiation units: for a header NAME.hpp, which defines the model
+# `hopscotch::NAME`, one object per target, one for the other arithmetics, one entry; and a registry of
+# all entries. Installed with the package, so that a user's own model is built the same way.
+get_filename_component(HOPSCOTCH_UNITS ${CMAKE_CURRENT_LIST_DIR}/../../kernels/ensemble/units ABSOLUTE)
+if(NOT EXISTS ${HOPSCOTCH_UNITS})
+    set(HOPSCOTCH_UNITS ${CMAKE_CURRENT_LIST_DIR}/units)
+endif()
+
+function(hopscotch_add_models library)
+    set(entries "")
+    set(declarations "")
+    set(names "")
+    foreach(header ${ARGN})
+        get_filename_component(model ${header} NAME_WE)
+        list(APPEND names ${model})
+        set(folder ${CMAKE_CURRENT_BINARY_DIR}/units/${model})
+        get_filename_component(model_header ${header} ABSOLUTE)
+        foreach(target ${HOPSCOTCH_TARGETS})
+            set(unit ${folder}/${target}.cpp)
+            configure_file(${HOPSCOTCH_UNITS}/kernels.cpp.in ${unit} @ONLY)
+            target_sources(${library} PRIVATE ${unit})
+            set_source_files_properties(${unit} PROPERTIES
+                COMPILE_OPTIONS "${HOPSCOTCH_FLAGS_${target}};-fno-sanitize=all;-Wno-uninitialized"
+                COMPILE_DEFINITIONS
+                    "HOPSCOTCH_TARGET=${target};HOPSCOTCH_REGISTERS=${HOPSCOTCH_REGISTERS_${target}}")
+        endforeach()
+        foreach(unit entry orbits)
+            configure_file(${HOPSCOTCH_UNITS}/${unit}.cpp.in ${folder}/${unit}.cpp @ONLY)
+            target_sources(${library} PRIVATE ${folder}/${unit}.cpp)
+        endforeach()
+        set_source_files_properties(${folder}/orbits.cpp PROPERTIES COMPILE_OPTIONS "-O1")
+    endforeach()
+    list(SORT names)
+    foreach(model ${names})
+        string(APPEND declarations "extern const model_entry ${model}_entry;\n")
+        string(APPEND entries "    &${model}_entry,\n")
+    endforeach()
+    configure_file(${HOPSCOTCH_UNITS}/registry.cpp.in
+        ${CMAKE_CURRENT_BINARY_DIR}/units/registry.cpp @ONLY)
+    target_sources(${library} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/units/registry.cpp)
+endfunction()

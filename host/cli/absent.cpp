@@ -1,0 +1,39 @@
+// Commands whose names are promised but which this version does not have: they say so.
+#include "host/cli/commands.hpp"
+#include "host/cli/usage_error.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace hopscotch {
+namespace {
+
+struct absent_command {
+    const char* name;
+    const char* meaning;
+    const char* instead;
+};
+
+constexpr absent_command absent[] = {
+    {"branch", "Continue periodic orbits over a parameter",
+     "hopscotch run with question.kind = \"period\" and the parameter as an axis"},
+    {"analyse", "Entropy, boundary dimension and extents of a map",
+     "hopscotch info FILE.h5 for the shares"},
+    {"bench", "Speed against error", "./hopscotch bench in a checkout"},
+    {"merge", "Join maps", "hopscotch run --resume"},
+};
+
+}  // namespace
+
+void add_absent(CLI::App& program, int&) {
+    for (const absent_command& what : absent) {
+        CLI::App* command =
+            program.add_subcommand(what.name, std::string(what.meaning) + " (not in this version)");
+        command->allow_extras();
+        command->callback([&what] {
+            throw usage_error(fmt::format("{} (not in this version); {}?", what.name, what.instead));
+        });
+    }
+}
+
+}  // namespace hopscotch

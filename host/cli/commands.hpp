@@ -1,0 +1,39 @@
+// The commands of the program. Each `add_...` tells the parser its arguments and what to do with them;
+// what it does lies in the file of the same name.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace hopscotch {
+
+/// Exit codes: promises to scripts.
+enum exit_code : int {
+    exit_done = 0,
+    exit_failed = 1,  // a mistake in this program
+    exit_usage = 2,
+    exit_input = 3,
+    exit_store = 4,
+    exit_device = 5,
+    exit_resumable = 75
+};
+
+void add_run(CLI::App& program, int& exit_code);
+void add_eval(CLI::App& program, int& exit_code);
+void add_trace(CLI::App& program, int& exit_code);
+void add_attractors(CLI::App& program, int& exit_code);
+void add_render(CLI::App& program, int& exit_code);
+void add_verify(CLI::App& program, int& exit_code);
+void add_replay(CLI::App& program, int& exit_code);
+void add_info(CLI::App& program, int& exit_code);
+void add_models(CLI::App& program, int& exit_code);
+void add_version(CLI::App& program, int& exit_code);
+
+/// Commands whose names are promised but which this version does not have.
+void add_absent(CLI::App& program, int& exit_code);
+
+/// The whole program: parses, runs, and turns every error into one line and its exit code.
+int run_program(int argc, const char* const* argv);
+
+}  // namespace hopscotch

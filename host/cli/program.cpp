@@ -1,0 +1,82 @@
+// Parses the command line, runs one command, and turns every error into one line and an exit code.
+#include "host/cli/commands.hpp"
+#include "host/cli/usage_error.hpp"
+#include "host/run/device_error.hpp"
+#include "host/scene/error.hpp"
+#include "host/scene/suggest.hpp"
+#include "host/store/store_error.hpp"
+
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace hopscotch {
+namespace {
+
+int complain(const char* what, int code) {
+    fmt::print(stderr, "hopscotch: {}\n", what);
+    return code;
+}
+
+void add_commands(CLI::App& program, int& code) {
+    program.require_subcommand(1);
+    add_run(program, code);
+    add_eval(program, code);
+    add_trace(program, code);
+    add_attractors(program, code);
+    add_render(program, code);
+    add_verify(program, code);
+    add_replay(program, code);
+    add_info(program, code);
+    add_models(program, code);
+    add_version(program, code);
+    add_absent(program, code);
+}
+
+void check_command(const CLI::App& program, int argc, const char* const* argv) {
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::vector<std::string> names;
+    for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return;
+    throw usage_error(fmt::format("{} (no such command); {}?", argv[1], suggest(argv[1], known)));
+}
+
+/// Help goes to stdout; anything else is one line.
+int answer(const CLI::App& program, const CLI::ParseError& error) {
+    const bool is_wish = error.get_exit_code() == 0;
+    if (is_wish) return program.exit(error);
+    std::string what = error.what();
+    for (char& letter : what) {
+        if (letter == '\n') letter = ' ';
+    }
+    return complain(fmt::format("{}; hopscotch --help?", what).c_str(), exit_usage);
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) try {
+    int code = exit_done;
+    CLI::App program("Hopscotch maps the basins of attraction of hybrid dynamical systems.", "hopscotch");
+    add_commands(program, code);
+    try {
+        check_command(program, argc, argv);
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return answer(program, error);
+    }
+    return code;
+} catch (const usage_error& error) {
+    return complain(error.what(), exit_usage);
+} catch (const scene_error& error) {
+    return complain(error.what(), exit_input);
+} catch (const store_error& error) {
+    return complain(error.what(), exit_store);
+} catch (const device_error& error) {
+    return complain(error.what(), exit_device);
+} catch (const std::exception& error) {
+    return complain(error.what(), exit_failed);
+}
+
+}  // namespace hopscotch

@@ -1,0 +1,26 @@
+// Aligned text for terminals.
+#include "host/cli/tables.hpp"
+
+#include <algorithm>
+
+namespace hopscotch {
+
+std::string aligned(const std::vector<std::vector<std::string>>& rows, int indent) {
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()));
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    }
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line(static_cast<std::size_t>(indent), ' ');
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            line += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
+    }
+    return text;
+}
+
+}  // namespace hopscotch

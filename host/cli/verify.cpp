@@ -1,0 +1,58 @@
+// hopscotch verify FILE.h5: is the file what was computed, and was that right?
+#include "analysis/labels/plan.hpp"
+#include "host/cli/commands.hpp"
+#include "host/run/attributes.hpp"
+#include "host/run/audit.hpp"
+#include "host/store/verify.hpp"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace hopscotch {
+namespace {
+
+struct verify_arguments {
+    std::string file;
+    std::uint64_t n_cells = 0;
+    std::uint64_t seed = 2;  // not the run's own audit once more
+};
+
+void recompute(const verify_arguments& given) {
+    const map_reader map(given.file);
+    const scene scene = scene_of(map);
+    const label_plan plan = plan_labels(scene);
+    const audit_report report = audit(
+        scene, plan, [&](std::uint64_t tile) { return map.tile(tile); }, given.n_cells, given.seed);
+    fmt::print("cells recomputed  {} (dd; disputed ones mp50)\n", report.n_cells);
+    fmt::print("wrong             {}  share {:.17g}, 95 % interval {:.17g} to {:.17g}\n", report.n_wrong,
+               report.share, report.lowest, report.highest);
+    for (const cell_verdict& verdict : report.wrong) {
+        fmt::print("  stored {} computed {}  hopscotch replay {} --cell {}\n", verdict.stored,
+                   verdict.computed, given.file, cell_text(scene, verdict.cell));
+    }
+}
+
+int verify(const verify_arguments& given) {
+    const std::vector<map_problem> problems = verify_file(given.file);
+    for (const map_problem& problem : problems) fmt::print(stderr, "hopscotch: {}\n", problem.text);
+    if (!problems.empty()) return exit_store;
+    fmt::print("hash              {}\nchecksums         all tiles as computed\n",
+               map_reader(given.file).attribute("hash"));
+    if (given.n_cells > 0) recompute(given);
+    return exit_done;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& program, int& exit_code) {
+    auto given = std::make_shared<verify_arguments>();
+    CLI::App* command = program.add_subcommand("verify", "Check a map's sums and some of its cells");
+    command->add_option("file", given->file, "Map file (HDF5)")->required();
+    command->add_option("--cells", given->n_cells, "Random cells to recompute in higher precision (0)");
+    command->add_option("--seed", given->seed, "Which random cells (2)");
+    command->callback([given, &exit_code] { exit_code = verify(*given); });
+}
+
+}  // namespace hopscotch

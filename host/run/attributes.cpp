@@ -1,0 +1,61 @@
+// Scene to attributes and back.
+#include "host/run/attributes.hpp"
+
+#include "host/run/build_info.hpp"
+#include "host/store/store_error.hpp"
+
+#include <fmt/format.h>
+
+namespace hopscotch {
+namespace {
+
+std::string joined(const std::vector<std::string>& lines) {
+    return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> lines;
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        lines.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return lines;
+}
+
+}  // namespace
+
+attribute_list attributes_of(const scene& scene, const kernel_choice& kernel) {
+    const build_info& build = this_build();
+    return {{"title", scene.title},
+            {"references", scene.reference},
+            {"source", fmt::format("hopscotch {} ({})", build.version, build.revision)},
+            {"name", scene.name},
+            {"model", std::string(scene.info().name)},
+            {"section", std::string(scene.start_section().name)},
+            {"question", scene.question.kind},
+            {"precision", scene.accuracy.precision},
+            {"backend", std::string(name_of(kernel.which))},
+            {"version", std::string(build.version)},
+            {"revision", std::string(build.revision)},
+            {"compiler", build.compiler},
+            {"flags", std::string(build.flags)},
+            {"scene_file", scene.file},
+            {"scene", scene.text},
+            {"overrides", joined(scene.overrides)}};
+}
+
+scene scene_of(const map_reader& map, std::span<const model_entry* const> models) {
+    const std::string text = map.attribute("scene");
+    if (text.empty()) throw store_error("map", "holds no scene", "a file written by `run`");
+    const scene result =
+        parse_scene(text, map.attribute("scene_file"), split(map.attribute("overrides")), models);
+    if (result.fingerprint != map.attribute("fingerprint")) {
+        throw store_error("map", "this version reads its scene differently, the fingerprints differ",
+                          "the version in its attribute `source`");
+    }
+    return result;
+}
+
+}  // namespace hopscotch

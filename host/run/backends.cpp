@@ -1,0 +1,63 @@
+// Backends by name and by processor.
+#include "host/run/backends.hpp"
+
+#include <fmt/format.h>
+
+#ifdef HOPSCOTCH_HAS_CUDA
+#include "kernels/cuda/devices.hpp"
+#endif
+
+namespace hopscotch {
+namespace {
+
+bool runs_avx2() {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+           __builtin_cpu_supports("bmi2");
+}
+
+bool runs_avx512() {
+    return runs_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+}
+
+std::string reason_against_gpu() {
+#ifdef HOPSCOTCH_HAS_CUDA
+    return n_cuda_devices() > 0 ? "" : "there is no CUDA device";
+#else
+    return "this program is built without CUDA";
+#endif
+}
+
+std::string reason_against(const model_entry& model, backend which) {
+    if (std::string reason = reason_against(which); !reason.empty()) return reason;
+    if (model.has(which)) return "";
+    return fmt::format("{} is not built for it", model.info->name);
+}
+
+}  // namespace
+
+std::string reason_against(backend which) {
+    switch (which) {
+        case backend::scalar: return "";
+        case backend::avx2: return runs_avx2() ? "" : "this processor has no AVX2";
+        case backend::avx512: return runs_avx512() ? "" : "this processor has no AVX-512";
+        case backend::cuda: return reason_against_gpu();
+    }
+    return "no such backend";
+}
+
+kernel_choice choose_kernel(const model_entry& model, int variant, std::string_view wanted) {
+    const bool is_auto = wanted == "auto" || wanted.empty();
+    for (const backend which : {backend::avx512, backend::avx2, backend::scalar, backend::cuda}) {
+        if (is_auto ? which == backend::cuda : name_of(which) != wanted) continue;
+        const std::string reason = reason_against(model, which);
+        if (reason.empty()) return {which, variant, model.kernel(which, variant)};
+        if (!is_auto) {
+            throw device_error(fmt::format("--backend {} ({}); --backend auto?", wanted, reason));
+        }
+    }
+    throw device_error(fmt::format("--backend {} (no kernel of {} for it); auto?", wanted,
+                                   model.info->name));
+}
+
+}  // namespace hopscotch

@@ -1,0 +1,35 @@
+// Which kernel computes a map: the backend by name or the best one this processor runs, the compile-time
+// variant by the model's own choice. The only place that asks the processor what it can do.
+#pragma once
+
+#include "host/run/device_error.hpp"
+#include "kernels/contract/entry.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace hopscotch {
+
+inline constexpr std::array<std::string_view, n_backends> backend_names{"scalar", "avx2", "avx512",
+                                                                        "cuda"};
+
+constexpr std::string_view name_of(backend which) {
+    return backend_names[static_cast<std::size_t>(which)];
+}
+
+struct kernel_choice {
+    backend which = backend::scalar;
+    int variant = 0;
+    ensemble_function run = nullptr;
+};
+
+/// Why this machine cannot run the backend, or "".
+std::string reason_against(backend which);
+
+/// The backend of that name; `auto` is the widest one that this processor runs and the model is built
+/// for (never the GPU: it is asked for by name).
+/// \error device_error naming what is missing and what can be had instead
+kernel_choice choose_kernel(const model_entry& model, int variant, std::string_view wanted);
+
+}  // namespace hopscotch

@@ -1,0 +1,62 @@
+// Computes a scene's map from beginning to end: plan the labels, compute the missing tiles in parallel,
+// write them one by one, audit, pack. Reads like the data flow; used by the command `run` and by tests.
+#pragma once
+
+#include "host/run/label_plan.hpp"
+#include "host/run/progress.hpp"
+#include "host/scene/scene.hpp"
+#include "host/store/map_run.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace hopscotch {
+
+struct run_choices {
+    std::filesystem::path file;     // empty: the scene's
+    std::string backend = "auto";
+    int n_threads = 0;              // 0: as many as the machine has
+    if_exists existing = if_exists::refuse;
+    std::optional<double> walltime;  // seconds
+    bool is_quiet = false;
+};
+
+/// The analysis' part in a run. Both may be empty: then cells have no labels, and no audit is made.
+struct run_hooks {
+    std::function<label_plan(const scene&)> plan;
+    std::function<attribute_list(const scene&, const label_plan&, const map_run&)> audit;
+};
+
+/// What a run has done, also where it was interrupted.
+struct run_report {
+    std::filesystem::path file;
+    std::string backend;
+    bool is_finished = false;
+    std::uint64_t n_cells = 0;
+    std::uint64_t n_tiles = 0;
+    std::uint64_t n_missing = 0;  // tiles that an interrupted run leaves
+    run_tally tally;              // of the cells computed now
+    double seconds = 0.0;         // spent on tiles
+    std::vector<attractor_row> attractors;
+    value_counts labels;
+    value_counts outcomes;
+    std::string hash;
+    attribute_list audit;
+    std::vector<std::string> notes;
+};
+
+/// \error scene_error (a question that is no map), store_error, device_error; finished tiles always stay
+run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks);
+
+/// Number of threads for a choice of 0 or more.
+int threads_for(int wanted);
+
+/// Outcomes that leave a cell without an answer.
+bool is_undecided(const scene& scene, int outcome_code);
+
+/// \error scene_error where `run` cannot answer the scene's question or precision
+void check_is_map(const scene& scene);
+
+}  // namespace hopscotch

@@ -1,0 +1,41 @@
+// Signals and time limits.
+#include "host/run/stop_condition.hpp"
+
+#include <csignal>
+
+namespace hopscotch {
+namespace {
+
+volatile std::sig_atomic_t has_signal = 0;
+
+void raise_flag(int signal) {
+    has_signal = 1;
+    std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+stop_condition::stop_condition(std::optional<double> walltime)
+    : begin_(std::chrono::steady_clock::now()), walltime_(walltime) {
+    has_signal = 0;
+    std::signal(SIGINT, raise_flag);
+    std::signal(SIGTERM, raise_flag);
+}
+
+stop_condition::~stop_condition() {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+}
+
+bool stop_condition::is_interrupted() const { return has_signal != 0; }
+
+bool stop_condition::is_due(double seconds) const {
+    if (is_interrupted()) return true;
+    return walltime_ && elapsed() + seconds >= *walltime_;
+}
+
+double stop_condition::elapsed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+}  // namespace hopscotch

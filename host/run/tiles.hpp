@@ -1,0 +1,32 @@
+// Computes one tile: request, kernel, and the layers that follow from the kernel's results.
+#pragma once
+
+#include "host/map/layout.hpp"
+#include "host/run/backends.hpp"
+#include "host/run/label_plan.hpp"
+#include "host/scene/layers.hpp"
+#include "host/scene/scene.hpp"
+
+#include <vector>
+
+namespace hopscotch {
+
+/// What every tile of a run needs; borrowed, and read only while tiles are computed.
+struct tile_job {
+    const scene& what;
+    const label_plan& plan;
+    const map_layout& layout;
+    const std::vector<layer_plan>& layers;
+    kernel_choice kernel;
+};
+
+struct tile_result {
+    tile_data data;
+    lane_statistics lanes;
+    double seconds = 0.0;
+};
+
+/// Thread safe.
+tile_result compute_tile(const tile_job& job, const tile_box& box);
+
+}  // namespace hopscotch

@@ -1,0 +1,61 @@
+// One number for everything that decides a map's numbers: tiles of an interrupted run are taken up again
+// only under the same fingerprint. File name, compression, tile shape, layers, titles and the audit
+// leave every number as it is and do not enter (the store compares tiles and layers by itself).
+#include "host/scene/readers.hpp"
+
+#include <fmt/format.h>
+
+namespace hopscotch {
+namespace {
+
+__extension__ using word128 = unsigned __int128;
+
+/// FNV-1a over 128 bits: short, and the same on every machine.
+std::string hash_of(std::string_view text) {
+    constexpr word128 prime = (static_cast<word128>(1) << 88) + 0x13b;
+    word128 hash = (static_cast<word128>(0x6c62272e07bb0142u) << 64) +
+                             0x62b821756295c58du;
+    for (const char letter : text) {
+        hash ^= static_cast<unsigned char>(letter);
+        hash *= prime;
+    }
+    return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(hash >> 64),
+                       static_cast<std::uint64_t>(hash));
+}
+
+/// The scene in a form in which two scenes with the same numbers read the same.
+std::string canonical(const scene& scene) {
+    std::string text = fmt::format("model {}\n", scene.info().name);
+    const auto parameters = scene.info().parameters;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        text += fmt::format("parameter {} {:a}\n", parameters[i].name, scene.parameters[i]);
+    }
+    const auto options = scene.info().options;
+    for (std::size_t i = 0; i < options.size(); ++i) {
+        const auto choice = static_cast<std::size_t>(scene.options[i]);
+        text += fmt::format("option {} {}\n", options[i].name, options[i].choices[choice]);
+    }
+    text += fmt::format("section {}\n", scene.start_section().name);
+    for (const scene_axis& axis : scene.axes) {
+        text += fmt::format("axis {} {:a} {:a} {} {} {}\n", axis.name, axis.lowest, axis.highest,
+                            axis.cells, axis.scale == axis_scale::log ? "log" : "linear",
+                            axis.edges ? "edges" : "centres");
+    }
+    const auto columns = scene.start_section().columns;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        text += fmt::format("start {} {:a}\n", columns[i].name, scene.start[i]);
+    }
+    text += fmt::format("question {} {}\n", scene.question.kind, scene.question.returns);
+    for (const auto& [name, number] : scene.question.numbers) {
+        text += fmt::format("number {} {:a}\n", name, number);
+    }
+    text += fmt::format("accuracy {} {:a} {}\n", scene.accuracy.precision, scene.accuracy.tolerance,
+                        scene.accuracy.max_events);
+    return text;
+}
+
+}  // namespace
+
+std::string fingerprint_of(const scene& scene) { return hash_of(canonical(scene)); }
+
+}  // namespace hopscotch

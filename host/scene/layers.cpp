@@ -1,0 +1,80 @@
+// The layers that a scene's map can have.
+#include "host/scene/layers.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace hopscotch {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::pair<int, std::string>> outcome_flags() {
+    std::vector<std::pair<int, std::string>> flags;
+    for (std::size_t code = 0; code < outcome_names.size(); ++code) {
+        flags.emplace_back(static_cast<int>(code), std::string(outcome_names[code]));
+    }
+    return flags;
+}
+
+layer_plan plan(layer_role role, std::string name, number_type type, std::string unit,
+                std::string meaning, double fill, int index = 0) {
+    return {{std::move(name), type, std::move(unit), std::move(meaning), fill, {}}, role, index, ""};
+}
+
+layer_plan state_plan(const scene& scene, int index) {
+    const column_info& column = scene.end_section().columns[static_cast<std::size_t>(index)];
+    const std::string name(column.name);
+    layer_plan result = plan(layer_role::state, name, number_type::float64, std::string(column.unit),
+                             std::string(column.meaning) + ", after the last return", nan, index);
+    const bool is_axis = std::any_of(scene.axes.begin(), scene.axes.end(),
+                                     [&](const scene_axis& axis) { return axis.name == name; });
+    if (is_axis) {
+        result.alias = name;  // a dimension scale of that name is already in the file
+        result.description.name = "last_" + name;
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<layer_plan> available_layers(const scene& scene) {
+    constexpr double no_count = std::numeric_limits<std::uint32_t>::max();
+    std::vector<layer_plan> layers;
+    if (scene.question.has_labels) {
+        layers.push_back(plan(layer_role::label, "label", number_type::int16, "1",
+                              "attractor that the orbit tends to (0 = none found)", -1.0));
+        layers.push_back(plan(layer_role::period, "period", number_type::int16, "1",
+                              "period of that attractor in returns (0 = aperiodic or none)", -1.0));
+    }
+    layers.push_back(plan(layer_role::outcome, "outcome", number_type::uint8, "1",
+                          "why the orbit's computation ended", 255.0));
+    layers.back().description.flags = outcome_flags();
+    layers.push_back(plan(layer_role::returns, "returns", number_type::uint32, "1",
+                          "completed returns", no_count));
+    layers.push_back(plan(layer_role::events, "events", number_type::uint32, "1",
+                          "resets and mode changes", no_count));
+    layers.push_back(plan(layer_role::time, "time", number_type::float64,
+                          std::string(scene.info().time_unit), "time from the start to the end", nan));
+    const int n_columns = static_cast<int>(scene.end_section().columns.size());
+    for (int index = 0; index < n_columns; ++index) layers.push_back(state_plan(scene, index));
+    int index = 0;
+    for (const extra_info& extra : scene.info().extras) {
+        layers.push_back(plan(layer_role::extra, std::string(extra.name), number_type::float64,
+                              std::string(extra.unit), std::string(extra.meaning), nan, index++));
+    }
+    return layers;
+}
+
+std::vector<layer_plan> chosen_layers(const scene& scene) {
+    const std::vector<layer_plan> available = available_layers(scene);
+    std::vector<layer_plan> chosen;
+    for (const std::string& name : scene.output.layers) {
+        for (const layer_plan& layer : available) {
+            if (layer.description.name == name) chosen.push_back(layer);
+        }
+    }
+    return chosen;
+}
+
+}  // namespace hopscotch

@@ -1,0 +1,44 @@
+// The table of question kinds.
+#include "host/scene/questions.hpp"
+
+#include <array>
+
+namespace hopscotch {
+namespace {
+
+using names = std::string_view;
+
+constexpr std::array<names, 3> label_layers{"label", "outcome", "returns"};
+constexpr std::array<names, 4> period_layers{"period", "label", "outcome", "returns"};
+constexpr std::array<names, 2> state_layers{"state", "outcome"};
+constexpr std::array<names, 3> fall_layers{"returns", "outcome", "time"};
+
+constexpr std::array<question_number, 1> transient{{{"transient", 1000.0, 0.0, true}}};
+
+constexpr std::array<question_kind, 8> kinds{{
+    {"basins", "the attractor that each start tends to", true, true, 2000, {}, label_layers},
+    {"one_sided", "the basins, for orbits that attract from one side only", true, true, 2000, {},
+     label_layers},
+    {"period", "the period of the attractor that each start tends to", true, true, 2000, {},
+     period_layers},
+    {"return_map", "the state after the given number of returns", false, true, 1, {}, state_layers},
+    {"steps_to_fall", "how many returns are completed before the orbit ends", false, true, 1000, {},
+     fall_layers},
+    {"lyapunov", "the largest Lyapunov exponent", false, false, 1000, transient, state_layers},
+    {"orbit_diagram", "the states that orbits settle on, over a parameter", false, false, 1000,
+     transient, state_layers},
+    {"branch", "periodic orbits continued over a parameter", false, false, 1, {}, state_layers},
+}};
+
+}  // namespace
+
+std::span<const question_kind> question_kinds() { return kinds; }
+
+const question_kind* find_question(std::string_view name) {
+    for (const question_kind& kind : kinds) {
+        if (kind.name == name) return &kind;
+    }
+    return nullptr;
+}
+
+}  // namespace hopscotch

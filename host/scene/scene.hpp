@@ -1,0 +1,97 @@
+// A scene: model + parameters + grid + question + accuracy, read from one TOML file and checked. What
+// leaves `read_scene` is complete and consistent; it is passed on as `const scene&` and never changed.
+#pragma once
+
+#include "host/scene/error.hpp"
+#include "kernels/contract/entry.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hopscotch {
+
+enum class axis_kind : std::uint8_t { column, parameter };
+enum class axis_scale : std::uint8_t { linear, log };
+
+/// What is left of a grid axis when it is checked; `values_of` (host/scene/grid.hpp) gives its cells.
+struct scene_axis {
+    std::string name;
+    axis_kind kind = axis_kind::column;
+    int index = 0;  // among the section's columns or the model's parameters
+    double lowest = 0.0;
+    double highest = 1.0;
+    std::uint64_t cells = 1;
+    axis_scale scale = axis_scale::linear;
+    bool edges = false;  // samples the end points instead of the cell centres
+};
+
+/// What the map shows. `numbers` holds what only some kinds know (see host/scene/questions.hpp).
+struct scene_question {
+    std::string kind;
+    std::uint32_t returns = 1;
+    std::map<std::string, double, std::less<>> numbers;
+    bool has_labels = false;  // cells are labelled by attractor
+
+    double number(std::string_view name, double otherwise = 0.0) const;
+};
+
+struct scene_accuracy {
+    std::string precision = "double";
+    std::uint64_t audit_cells = 1000;
+    double tolerance = 1e-10;        // only where a flow is integrated
+    std::uint64_t max_events = 100000;  // steps of work per return before the outcome `budget`
+};
+
+struct scene_output {
+    std::filesystem::path file;
+    std::vector<std::uint64_t> tile;
+    int compression = 4;
+    std::vector<std::string> layers;  // names of datasets, see host/scene/layers.hpp
+};
+
+struct scene {
+    std::string file;  // names the scene in messages
+    std::string text;  // as written in the file
+    std::vector<std::string> overrides;
+
+    std::string name;
+    std::string title;
+    std::string reference;
+
+    const model_entry* model = nullptr;
+    std::vector<double> parameters;  // one per parameter of the model; NaN = the model derives it
+    std::vector<bool> is_given;      // parameters the scene sets (not the axes)
+    std::vector<int> options;        // index of the choice, one per option
+    int section = 0;
+    std::vector<scene_axis> axes;    // the first one is the slowest in memory
+    std::vector<double> start;       // one per column of the section; NaN where the column is an axis
+
+    scene_question question;
+    scene_accuracy accuracy;
+    scene_output output;
+    std::string fingerprint;  // of everything that decides the map's numbers
+
+    const model_info& info() const { return *model->info; }
+    const section_info& start_section() const;
+    const section_info& end_section() const;  // the one that completed returns are read on
+    std::uint64_t n_cells() const;
+};
+
+/// Reads, overrides and checks a scene.
+///
+/// \param overrides  `key=value`, applied before anything is checked
+/// \param models     the models a scene may name
+/// \error            scene_error for the first mistake found
+scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {},
+                 std::span<const model_entry* const> models = all_models());
+
+/// The same from text that is already there, as stored in a map.
+scene parse_scene(std::string text, std::string file, std::span<const std::string> overrides = {},
+                  std::span<const model_entry* const> models = all_models());
+
+}  // namespace hopscotch

@@ -1,0 +1,155 @@
+// The one place that calls HDF5: a file whose groups, datasets, dimension scales and attributes are
+// named by path. HDF5's own messages are silenced and folded into the store_error that is thrown.
+// The serial HDF5 library is not thread safe: whoever uses this class holds an hdf5_guard.
+#pragma once
+
+#include "host/store/store_error.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hopscotch {
+
+/// Held during any use of HDF5; may be taken again by the same thread.
+class hdf5_guard {
+public:
+    hdf5_guard();
+
+private:
+    std::unique_lock<std::recursive_mutex> lock_;
+};
+
+/// Types as they lie in a file.
+enum class hdf5_type : std::uint8_t { uint8, int16, int32, uint32, uint64, float64, text };
+
+/// Owns one HDF5 identifier of any kind.
+class hdf5_handle {
+public:
+    using identifier = std::int64_t;  // HDF5's hid_t
+
+    hdf5_handle() = default;
+    explicit hdf5_handle(identifier id) : id_(id) {}
+    ~hdf5_handle() { reset(); }
+    hdf5_handle(hdf5_handle&& other) noexcept;
+    hdf5_handle& operator=(hdf5_handle&& other) noexcept;
+
+    identifier id() const { return id_; }
+    explicit operator bool() const { return id_ >= 0; }
+    bool reset() noexcept;  // false where HDF5 could not close it
+
+private:
+    identifier id_ = -1;
+};
+
+/// A dataset made of chunks that the caller compresses.
+struct chunked_dataset {
+    hdf5_type type = hdf5_type::float64;
+    std::vector<std::uint64_t> shape;
+    std::vector<std::uint64_t> chunk;
+    double fill = 0.0;
+    int level = 4;  // of deflate, as a note to other writers
+};
+
+/// Numbers of the given type in an attribute; text attributes are plain strings.
+struct numbers {
+    hdf5_type type = hdf5_type::float64;
+    std::vector<double> values;
+};
+
+class hdf5_file {
+public:
+    using shape_type = std::vector<std::uint64_t>;
+
+    static hdf5_file create(const std::filesystem::path& path);  // replaces an existing file
+    static hdf5_file create_in_memory(const std::string& place);
+    static hdf5_file open(const std::filesystem::path& path);  // to read
+    static hdf5_file open_image(std::span<const std::byte> image, const std::string& place);
+
+    hdf5_file(hdf5_file&&) noexcept = default;
+    hdf5_file& operator=(hdf5_file&&) noexcept = default;
+    ~hdf5_file() = default;
+
+    const std::string& place() const { return place_; }
+
+    /// Writes everything out; the only way to learn of errors at the last moment.
+    void close();
+
+    /// The file's bytes (create_in_memory).
+    std::vector<std::byte> image();
+
+    bool has(const std::string& path) const;
+    bool is_dataset(const std::string& path) const;
+    void make_group(const std::string& path);
+    std::vector<std::string> members(const std::string& group) const;  // in order of creation
+
+    void make_dataset(const std::string& path, const chunked_dataset& dataset);
+    void write_chunk(const std::string& path, const shape_type& origin,
+                     std::span<const std::byte> bytes);
+    bool has_chunk(const std::string& path, const shape_type& origin) const;
+    /// The compressed bytes of a chunk; none where it was never written.
+    std::optional<std::vector<std::byte>> read_chunk(const std::string& path,
+                                                     const shape_type& origin);
+
+    void write(const std::string& path, const shape_type& shape, std::span<const double> values);
+    void write(const std::string& path, const shape_type& shape,
+               std::span<const std::uint64_t> values);
+    void write(const std::string& path, hdf5_type type, const shape_type& shape,
+               std::span<const double> values);  // converted to an integer type
+    void write(const std::string& path, std::span<const std::string> texts);
+
+    hdf5_type type_of(const std::string& path) const;
+    shape_type shape_of(const std::string& path) const;
+    shape_type chunk_of(const std::string& path) const;  // empty where it is not chunked
+    std::vector<double> read_doubles(const std::string& path) const;
+    std::vector<std::uint64_t> read_words(const std::string& path) const;
+    std::vector<std::string> read_texts(const std::string& path) const;
+
+    void make_scale(const std::string& path, const std::string& name);
+    void attach_scale(const std::string& path, const std::string& scale, unsigned axis);
+    /// Names of the scales of every axis of a dataset.
+    std::vector<std::string> scales_of(const std::string& path) const;
+
+    /// Text as netCDF's characters (CF attributes: every reader knows them).
+    void set_attribute(const std::string& object, const std::string& name, std::string_view text);
+    /// Text as a string of any length (h5py and MATLAB give it back as text).
+    void set_text(const std::string& object, const std::string& name, const std::string& text);
+    void set_attribute(const std::string& object, const std::string& name, const numbers& values);
+    void set_words(const std::string& object, const std::string& name,
+                   std::span<const std::uint64_t> words);
+    std::vector<std::string> attribute_names(const std::string& object) const;
+    bool has_attribute(const std::string& object, const std::string& name) const;
+    bool is_text_attribute(const std::string& object, const std::string& name) const;
+    std::string attribute_text(const std::string& object, const std::string& name) const;
+    std::vector<double> attribute_numbers(const std::string& object, const std::string& name) const;
+    std::vector<std::uint64_t> attribute_words(const std::string& object,
+                                               const std::string& name) const;
+
+private:
+    hdf5_file(hdf5_handle file, std::string place);
+
+    hdf5_handle::identifier dataset(const std::string& path) const;  // opened once, then kept
+    hdf5_handle object(const std::string& path) const;
+    hdf5_handle attribute(const std::string& object, const std::string& name) const;
+    void put_attribute(const std::string& object, const std::string& name,
+                       hdf5_handle::identifier file_type, hdf5_handle::identifier memory_type,
+                       const hdf5_handle& space, const void* values);
+    void write_dense(const std::string& path, hdf5_type type, const shape_type& shape,
+                     hdf5_handle::identifier memory_type, const void* values);
+    [[noreturn]] void fail(const std::string& action) const;
+    hdf5_handle checked(hdf5_handle::identifier id, const std::string& action) const;
+    void check(int status, const std::string& action) const;
+
+    std::string place_;
+    hdf5_handle file_;
+    mutable std::map<std::string, hdf5_handle> datasets_;  // destroyed before the file
+};
+
+}  // namespace hopscotch

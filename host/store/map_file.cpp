@@ -1,0 +1,229 @@
+#include "host/store/map_file.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <sstream>
+
+namespace hopscotch {
+
+namespace {
+
+constexpr const char* conventions = "CF-1.10";
+
+/// CF separates flag meanings by blanks.
+std::string as_one_word(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return c <= ' '; }, '_');
+    return name.empty() ? "_" : name;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    return words;
+}
+
+void describe(hdf5_file& file, const std::string& name, const std::string& unit,
+              const std::string& long_name) {
+    if (!long_name.empty()) file.set_attribute(name, "long_name", long_name);
+    file.set_attribute(name, "units", unit.empty() ? "1" : unit);
+}
+
+void write_axis(hdf5_file& file, const axis& each) {
+    file.write(each.name, {each.size()}, std::span<const double>(each.values));
+    file.make_scale(each.name, each.name);
+    describe(file, each.name, each.unit, each.long_name);
+    file.set_attribute(each.name, "scale", each.scale);
+}
+
+std::string colour_words(const std::vector<std::pair<int, std::string>>& flags,
+                         const std::vector<attractor_row>& attractors) {
+    std::string words;
+    for (const auto& [value, name] : flags) {
+        const auto row = std::find_if(attractors.begin(), attractors.end(),
+                                      [value = value](const auto& r) { return r.label == value; });
+        char text[16];
+        std::snprintf(text, sizeof text, "%s#%06x", words.empty() ? "" : " ",
+                      row == attractors.end() ? 0U : row->colour & 0xffffffU);
+        words += text;
+    }
+    return words;
+}
+
+void write_flags(hdf5_file& file, const layer& each, const std::vector<attractor_row>& attractors) {
+    numbers values{stored_as(each.type), {}};
+    std::string meanings;
+    for (const auto& [value, name] : each.flags) {
+        values.values.push_back(value);
+        meanings += (meanings.empty() ? "" : " ") + as_one_word(name);
+    }
+    file.set_attribute(each.name, "flag_values", values);
+    file.set_attribute(each.name, "flag_meanings", meanings);
+    if (each.name == "label") {
+        file.set_attribute(each.name, "flag_colors", colour_words(each.flags, attractors));
+    }
+}
+
+void write_layer(hdf5_file& file, const map_description& map, const layer& each) {
+    chunked_dataset dataset{stored_as(each.type), {}, full_tile(map.layout), each.fill};
+    for (const axis& along : map.layout.axes) dataset.shape.push_back(along.size());
+    file.make_dataset(each.name, dataset);
+    for (unsigned i = 0; i < map.layout.axes.size(); ++i) {
+        file.attach_scale(each.name, map.layout.axes[i].name, i);
+    }
+    describe(file, each.name, each.unit, each.long_name);
+    file.set_attribute(each.name, "_FillValue", numbers{dataset.type, {each.fill}});
+    if (!each.flags.empty()) write_flags(file, each, map.attractors);
+}
+
+std::string optional_text(hdf5_file& file, const std::string& object, const std::string& name) {
+    return file.has_attribute(object, name) ? file.attribute_text(object, name) : std::string();
+}
+
+axis read_axis(hdf5_file& file, const std::string& name) {
+    axis result;
+    result.name = name;
+    result.unit = optional_text(file, name, "units");
+    result.long_name = optional_text(file, name, "long_name");
+    const std::string scale = optional_text(file, name, "scale");
+    if (!scale.empty()) result.scale = scale;
+    result.values = file.read_doubles(name);
+    return result;
+}
+
+number_type number_type_of(const hdf5_file& file, const std::string& name) {
+    switch (file.type_of(name)) {
+        case hdf5_type::uint8: return number_type::uint8;
+        case hdf5_type::int16: return number_type::int16;
+        case hdf5_type::uint32: return number_type::uint32;
+        case hdf5_type::float64: return number_type::float64;
+        default: break;
+    }
+    throw store_error(file.place() + ": " + name, "not a number type of a layer", "");
+}
+
+layer read_layer(hdf5_file& file, const std::string& name) {
+    layer result;
+    result.name = name;
+    result.type = number_type_of(file, name);
+    result.unit = optional_text(file, name, "units");
+    result.long_name = optional_text(file, name, "long_name");
+    result.fill = file.attribute_numbers(name, "_FillValue").at(0);
+    if (file.has_attribute(name, "flag_values")) {
+        const std::vector<double> values = file.attribute_numbers(name, "flag_values");
+        const std::vector<std::string> meanings =
+            words_of(optional_text(file, name, "flag_meanings"));
+        for (std::size_t i = 0; i < std::min(values.size(), meanings.size()); ++i) {
+            result.flags.emplace_back(static_cast<int>(values[i]), meanings[i]);
+        }
+    }
+    return result;
+}
+
+/// Attractors' names as they are, where CF's one-word meanings stand for them.
+void restore_label_names(map_description& map) {
+    const std::size_t index = layer_index(map.layout, "label");
+    if (index == map.layout.layers.size()) return;
+    for (auto& [value, name] : map.layout.layers[index].flags) {
+        for (const attractor_row& row : map.attractors) {
+            if (row.label == value) name = row.name;
+        }
+    }
+}
+
+}  // namespace
+
+hdf5_type stored_as(number_type type) {
+    switch (type) {
+        case number_type::uint8: return hdf5_type::uint8;
+        case number_type::int16: return hdf5_type::int16;
+        case number_type::uint32: return hdf5_type::uint32;
+        case number_type::float64: break;
+    }
+    return hdf5_type::float64;
+}
+
+map_description completed(map_description map, const std::string& place) {
+    std::set<std::string> names;
+    if (map.layout.axes.empty()) throw store_error(place, "the map has no axis", "");
+    for (const axis& each : map.layout.axes) {
+        if (each.values.empty()) throw store_error(place, "axis " + each.name + " has no cell", "");
+        if (!names.insert(each.name).second) {
+            throw store_error(place, "two axes are named " + each.name, "");
+        }
+    }
+    for (layer& each : map.layout.layers) {
+        if (!names.insert(each.name).second) {
+            throw store_error(place, "layer " + each.name + " has the name of an axis or layer",
+                              "leave it out of output.layers");
+        }
+        if (each.name != "label" || !each.flags.empty() || map.attractors.empty()) continue;
+        each.flags.emplace_back(0, "none");
+        for (const attractor_row& row : map.attractors) {
+            if (row.label != 0) each.flags.emplace_back(row.label, row.name);
+        }
+    }
+    if (attribute_of(map.attributes, "Conventions").empty()) {
+        map.attributes.insert(map.attributes.begin(), {"Conventions", conventions});
+    }
+    return map;
+}
+
+void write_description(hdf5_file& file, const map_description& map) {
+    for (const auto& [name, value] : map.attributes) {
+        if (name == "Conventions") {
+            file.set_attribute("/", name, value);
+        } else {
+            file.set_text("/", name, value);
+        }
+    }
+    for (const axis& each : map.layout.axes) write_axis(file, each);
+    for (const layer& each : map.layout.layers) write_layer(file, map, each);
+    if (!map.attractors.empty()) write_attractors(file, map.attractors, map.point_columns);
+}
+
+map_description read_description(hdf5_file& file) {
+    map_description map;
+    std::vector<std::string> axis_names;
+    for (const std::string& name : file.members("/")) {
+        if (!file.is_dataset(name)) continue;
+        const std::vector<std::uint64_t> chunk = file.chunk_of(name);
+        if (chunk.empty()) continue;  // an axis
+        axis_names = file.scales_of(name);
+        map.layout.tile = chunk;
+        map.layout.layers.push_back(read_layer(file, name));
+    }
+    if (map.layout.layers.empty()) {
+        throw store_error(file.place(), "holds no layer of a map", "is it a map file");
+    }
+    for (const std::string& name : axis_names) map.layout.axes.push_back(read_axis(file, name));
+    for (const std::string& name : file.attribute_names("/")) {
+        if (file.is_text_attribute("/", name)) {
+            map.attributes.emplace_back(name, file.attribute_text("/", name));
+        }
+    }
+    if (file.has("/attractors")) map.attractors = read_attractors(file, map.point_columns);
+    restore_label_names(map);
+    return map;
+}
+
+std::string attribute_of(const attribute_list& attributes, std::string_view name) {
+    for (const auto& [key, value] : attributes) {
+        if (key == name) return value;
+    }
+    return {};
+}
+
+void set_attribute(attribute_list& attributes, const std::string& name, const std::string& value) {
+    for (auto& [key, old] : attributes) {
+        if (key == name) {
+            old = value;
+            return;
+        }
+    }
+    attributes.emplace_back(name, value);
+}
+
+}  // namespace hopscotch

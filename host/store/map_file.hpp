@@ -1,0 +1,59 @@
+// The layout of a map on disk, written and read: axes as dimension scales, layers with CF attributes,
+// the groups /attractors and /tiles, global attributes. Everything but the layers' numbers, which
+// map_run puts in as chunks. netCDF-4 readers, h5py, ParaView and MATLAB open it without this project.
+//
+//   /<axis>       float64, dimension scale; units, long_name, scale = linear | log
+//   /<layer>      on the axes, chunk = tile, shuffle + deflate; units, long_name, _FillValue = "not
+//                 computed", flag_values + flag_meanings of categorical layers
+//   /attractors   label name period trap share colour, points(label, point, column),
+//                 multipliers(label, multiplier, part); rows of unequal length end in NaN
+//   /tiles        origin extent checksum of every tile; attribute compute_seconds
+#pragma once
+
+#include "host/map/hash.hpp"
+#include "host/map/layout.hpp"
+#include "host/store/hdf5_file.hpp"
+
+#include <string>
+#include <vector>
+
+namespace hopscotch {
+
+/// A map without its numbers.
+struct map_description {
+    map_layout layout;
+    attribute_list attributes;
+    std::vector<attractor_row> attractors;
+    std::vector<std::string> point_columns;
+};
+
+/// One row of the tile table.
+struct tile_row {
+    tile_box box;
+    std::vector<layer_sum> sums;
+    double seconds = 0.0;
+};
+
+hdf5_type stored_as(number_type type);
+
+/// A description fit for writing: throws store_error where names clash or an axis has no cell; a layer
+/// `label` without flags takes the attractors' names.
+map_description completed(map_description map, const std::string& place);
+
+void write_description(hdf5_file& file, const map_description& map);
+map_description read_description(hdf5_file& file);
+
+void write_attractors(hdf5_file& file, const std::vector<attractor_row>& rows,
+                      const std::vector<std::string>& point_columns);
+std::vector<attractor_row> read_attractors(hdf5_file& file, std::vector<std::string>& point_columns);
+
+void write_tile_table(hdf5_file& file, const map_layout& layout, const std::vector<tile_row>& rows);
+std::vector<tile_row> read_tile_table(hdf5_file& file, const map_layout& layout);
+
+/// The value of a global attribute; empty where there is none.
+std::string attribute_of(const attribute_list& attributes, std::string_view name);
+
+/// Adds an attribute, or replaces the one of that name in its place.
+void set_attribute(attribute_list& attributes, const std::string& name, const std::string& value);
+
+}  // namespace hopscotch

@@ -1,0 +1,277 @@
+#include "host/store/map_reader.hpp"
+
+#include "host/map/numbers.hpp"
+#include "host/map/rows.hpp"
+#include "host/store/map_file.hpp"
+#include "host/store/run_directory.hpp"
+#include "host/store/tile_file.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+namespace hopscotch {
+
+namespace {
+
+/// Where the cells of a strided range that fall into a tile come from and go to, along one axis.
+struct axis_cells {
+    std::vector<std::uint64_t> from;  // position in the tile
+    std::vector<std::uint64_t> to;    // position in the result
+};
+
+axis_cells cells_along(const cell_range& range, const tile_box& box, std::size_t axis) {
+    axis_cells cells;
+    const std::uint64_t stride = range.stride[axis];
+    const std::uint64_t begin = box.origin[axis];
+    const std::uint64_t first =
+        begin <= range.origin[axis] ? 0 : (begin - range.origin[axis] + stride - 1) / stride;
+    const std::uint64_t end = std::min(begin + box.extent[axis],
+                                       range.origin[axis] + range.extent[axis]);
+    for (std::uint64_t k = first; range.origin[axis] + k * stride < end; ++k) {
+        cells.from.push_back(range.origin[axis] + k * stride - begin);
+        cells.to.push_back(k);
+    }
+    return cells;
+}
+
+/// Tiles that a range touches, in C order.
+std::vector<std::uint64_t> tiles_of(const map_layout& layout, const cell_range& range) {
+    const std::vector<std::uint64_t> full = full_tile(layout);
+    std::vector<std::uint64_t> first;
+    std::vector<std::uint64_t> n;
+    for (std::size_t i = 0; i < full.size(); ++i) {
+        first.push_back(range.origin[i] / full[i]);
+        n.push_back((range.origin[i] + range.extent[i] - 1) / full[i] - first[i] + 1);
+    }
+    std::vector<std::uint64_t> tiles;
+    const std::vector<std::uint64_t> along = layout.tiles_along();
+    std::vector<std::uint64_t> at(full.size());
+    for_each_row(n, [&](const std::vector<std::uint64_t>& position) {
+        for (std::size_t i = 0; i < at.size(); ++i) at[i] = first[i] + position[i];
+        const std::uint64_t row = offset_in(along, at);
+        for (std::uint64_t j = 0; j < n.back(); ++j) tiles.push_back(row + j);
+    });
+    return tiles;
+}
+
+cell_range validated(const map_layout& layout, cell_range range) {
+    const std::size_t rank = layout.axes.size();
+    if (range.stride.empty()) range.stride.assign(rank, 1);
+    bool is_valid = range.origin.size() == rank && range.extent.size() == rank &&
+                    range.stride.size() == rank;
+    for (std::size_t i = 0; is_valid && i < rank; ++i) {
+        is_valid = range.extent[i] > 0 && range.stride[i] > 0 &&
+                   range.origin[i] < layout.axes[i].size() &&
+                   range.extent[i] <= layout.axes[i].size() - range.origin[i];
+    }
+    if (!is_valid) throw store_error("range of cells", "it does not lie in the map", "");
+    return range;
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> cell_range::shape() const {
+    std::vector<std::uint64_t> result = extent;
+    for (std::size_t i = 0; i < stride.size(); ++i) {
+        result[i] = (extent[i] + stride[i] - 1) / stride[i];
+    }
+    return result;
+}
+
+struct map_reader::implementation {
+    explicit implementation(const std::filesystem::path& path);
+
+    std::string place_of(std::uint64_t tile) const;
+    [[noreturn]] void fail(std::uint64_t tile, const std::string& reason) const;
+    std::vector<std::byte> layer_of(std::uint64_t tile, std::size_t layer);
+    bool has_tile(std::uint64_t tile);
+
+    std::filesystem::path place;      // the file, or the run directory
+    std::optional<hdf5_file> file;    // a finished map
+    map_description map;
+    std::string fingerprint;
+    std::vector<tile_row> table;      // of a finished map
+    std::set<std::uint64_t> damaged;  // tiles already listed as problems
+    std::vector<std::string> problems;
+};
+
+map_reader::implementation::implementation(const std::filesystem::path& path) : place(path) {
+    const hdf5_guard guard;
+    if (!std::filesystem::exists(path) && std::filesystem::exists(hopscotch::directory_of(path))) {
+        place = hopscotch::directory_of(path);
+    }
+    if (std::filesystem::is_directory(place)) {
+        map = read_run_description(place);
+    } else {
+        file = hdf5_file::open(place);
+        map = read_description(*file);
+        table = read_tile_table(*file, map.layout);
+    }
+    fingerprint = attribute_of(map.attributes, "fingerprint");
+}
+
+std::string map_reader::implementation::place_of(std::uint64_t tile) const {
+    return file ? place.string() + ": tile " + std::to_string(tile)
+                : tile_path(place, tile).string();
+}
+
+void map_reader::implementation::fail(std::uint64_t tile, const std::string& reason) const {
+    throw store_error(place_of(tile), reason, "compute the map again");
+}
+
+bool map_reader::implementation::has_tile(std::uint64_t tile) {
+    if (!file) return std::filesystem::exists(tile_path(place, tile));
+    const tile_box& box = table[tile].box;
+    return std::all_of(map.layout.layers.begin(), map.layout.layers.end(), [&](const layer& each) {
+        return file->has_chunk(each.name, box.origin);
+    });
+}
+
+/// The checked numbers of one layer of one tile.
+std::vector<std::byte> map_reader::implementation::layer_of(std::uint64_t tile,
+                                                            std::size_t layer) {
+    const hdf5_guard guard;
+    const tile_box box = box_of(map.layout, tile);
+    const std::string& name = map.layout.layers[layer].name;
+    std::vector<std::byte> chunk;
+    layer_sum sum;
+    if (file) {
+        auto stored = file->read_chunk(name, box.origin);
+        if (!stored) fail(tile, "missing: layer " + name + " was never written");
+        chunk = std::move(*stored);
+        sum = table[tile].sums[layer];
+    } else {
+        if (!has_tile(tile)) throw store_error(place_of(tile), "not computed yet", "");
+        compressed_tile stored = read_tile(place, map.layout, fingerprint, tile);
+        chunk = std::move(stored.chunks[layer]);
+        sum = stored.summary.sums[layer];
+    }
+    std::vector<std::byte> values;
+    try {
+        values = decode_chunk(map.layout, box, layer, chunk);
+    } catch (const std::runtime_error& error) {
+        fail(tile, "damaged: layer " + name + ": " + error.what());
+    }
+    if (sum_of(map.layout, box, layer, values) != sum) {
+        fail(tile, "damaged: layer " + name + " does not agree with its checksum");
+    }
+    return values;
+}
+
+map_reader::map_reader(const std::filesystem::path& path)
+    : self_(std::make_unique<implementation>(path)) {}
+
+map_reader::~map_reader() {
+    const hdf5_guard guard;
+    self_.reset();
+}
+
+map_reader::map_reader(map_reader&&) noexcept = default;
+
+map_reader& map_reader::operator=(map_reader&& other) noexcept {
+    const hdf5_guard guard;
+    self_ = std::move(other.self_);
+    return *this;
+}
+
+const map_layout& map_reader::layout() const { return self_->map.layout; }
+
+const attribute_list& map_reader::attributes() const { return self_->map.attributes; }
+
+std::string map_reader::attribute(std::string_view name) const {
+    return attribute_of(self_->map.attributes, name);
+}
+
+const std::vector<attractor_row>& map_reader::attractors() const { return self_->map.attractors; }
+
+const std::vector<std::string>& map_reader::point_columns() const {
+    return self_->map.point_columns;
+}
+
+bool map_reader::is_finished_map() const { return self_->file.has_value(); }
+
+std::vector<std::uint64_t> map_reader::missing_tiles() const {
+    const hdf5_guard guard;
+    std::vector<std::uint64_t> tiles;
+    for (std::uint64_t i = 0; i < layout().n_tiles(); ++i) {
+        if (!self_->has_tile(i)) tiles.push_back(i);
+    }
+    return tiles;
+}
+
+tile_data map_reader::tile(std::uint64_t index) const {
+    tile_data result{box_of(layout(), index), {}};
+    if (!self_->file && self_->has_tile(index)) {  // all layers at one reading
+        return checked_tile(layout(), read_tile(self_->place, layout(), self_->fingerprint, index),
+                            self_->place_of(index));
+    }
+    for (std::size_t i = 0; i < layout().layers.size(); ++i) {
+        result.layers.push_back(self_->layer_of(index, i));
+    }
+    return result;
+}
+
+std::vector<layer_sum> map_reader::stored_sums(std::uint64_t index) const {
+    if (self_->file) return self_->table.at(index).sums;
+    return read_tile(self_->place, layout(), self_->fingerprint, index).summary.sums;
+}
+
+std::vector<double> map_reader::read(std::string_view layer, const cell_range& asked) const {
+    const std::size_t index = layer_index(layout(), layer);
+    if (index == layout().layers.size()) {
+        throw store_error(self_->place.string(), "has no layer " + std::string(layer), "");
+    }
+    const cell_range range = validated(layout(), asked);
+    const std::vector<std::uint64_t> shape = range.shape();
+    std::uint64_t n = 1;
+    for (const std::uint64_t each : shape) n *= each;
+    const struct layer& wanted = layout().layers[index];
+    std::vector<double> result(n, wanted.fill);
+    for (const std::uint64_t tile : tiles_of(layout(), range)) {
+        const tile_box box = box_of(layout(), tile);
+        std::vector<axis_cells> cells;
+        std::vector<std::uint64_t> extent;
+        for (std::size_t i = 0; i < shape.size(); ++i) {
+            cells.push_back(cells_along(range, box, i));
+            extent.push_back(cells.back().from.size());
+        }
+        if (std::count(extent.begin(), extent.end(), 0U) > 0) continue;  // between the strides
+        std::vector<std::byte> values;
+        try {
+            values = self_->layer_of(tile, index);
+        } catch (const store_error& error) {
+            if (self_->damaged.insert(tile).second) self_->problems.push_back(error.what());
+            continue;
+        }
+        std::vector<std::uint64_t> from(shape.size());
+        std::vector<std::uint64_t> to(shape.size());
+        for_each_row(extent, [&](const std::vector<std::uint64_t>& position) {
+            for (std::size_t i = 0; i + 1 < shape.size(); ++i) {
+                from[i] = cells[i].from[position[i]];
+                to[i] = cells[i].to[position[i]];
+            }
+            from.back() = to.back() = 0;
+            const std::uint64_t from_row = offset_in(box.extent, from);
+            const std::uint64_t to_row = offset_in(shape, to);
+            for (std::uint64_t j = 0; j < extent.back(); ++j) {
+                result[to_row + cells.back().to[j]] =
+                    number_at(wanted.type, values.data(), from_row + cells.back().from[j]);
+            }
+        });
+    }
+    return result;
+}
+
+std::vector<double> map_reader::read_all(std::string_view layer) const {
+    cell_range all;
+    for (const axis& each : layout().axes) {
+        all.origin.push_back(0);
+        all.extent.push_back(each.size());
+    }
+    return read(layer, all);
+}
+
+const std::vector<std::string>& map_reader::problems() const { return self_->problems; }
+
+}  // namespace hopscotch

@@ -1,0 +1,333 @@
+#include "host/store/map_run.hpp"
+
+#include "host/store/atomic_file.hpp"
+#include "host/store/map_file.hpp"
+#include "host/store/run_directory.hpp"
+#include "host/store/run_lock.hpp"
+#include "host/store/tile_file.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+namespace hopscotch {
+
+namespace {
+
+bool is_same(const axis& a, const axis& b) { return a.name == b.name && a.values == b.values; }
+
+bool is_same(const layer& a, const layer& b) { return a.name == b.name && a.type == b.type; }
+
+/// True where tiles of one layout fit the other.
+bool is_same(const map_layout& a, const map_layout& b) {
+    const auto same = [](const auto& x, const auto& y) { return is_same(x, y); };
+    return std::equal(a.axes.begin(), a.axes.end(), b.axes.begin(), b.axes.end(), same) &&
+           std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(), same) &&
+           full_tile(a) == full_tile(b);
+}
+
+void require_same_scene(const std::filesystem::path& place, const std::string& there,
+                        const std::string& fingerprint) {
+    if (there == fingerprint) return;
+    throw store_error(place.string(),
+                      "belongs to another scene: fingerprint " + there + ", this scene's is " +
+                          fingerprint,
+                      "remove it or choose another name with -o");
+}
+
+std::string plural(std::uint64_t n, const std::string& noun) {
+    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+struct map_run::implementation {
+    implementation(const map_layout& map, const run_options& asked)
+        : layout(map), options(asked), directory(hopscotch::directory_of(asked.map)) {
+        finished.resize(layout.n_tiles());
+    }
+
+    void open();
+    void open_as_helper();
+    bool is_map_there();
+    void clear_or_refuse();
+    void load(std::uint64_t tile);
+    void scan();
+    std::uint64_t n_finished() const;
+    std::vector<layer_sum> sums() const;
+    void require_all_tiles() const;
+    map_description description(const map_summary& summary) const;
+    std::uint64_t bytes_of_tiles() const;
+    void pack(const std::filesystem::path& partial, const map_description& map);
+    void leave(bool is_done) noexcept;
+
+    map_layout layout;
+    run_options options;
+    std::filesystem::path directory;
+    std::unique_ptr<run_lock> lock;
+    std::vector<std::string> notes;
+    std::vector<std::optional<tile_summary>> finished;  // one per tile
+    bool is_complete = false;
+    std::mutex mutex;
+};
+
+/// The finished map: refused, accepted as the answer, or left to be replaced.
+bool map_run::implementation::is_map_there() {
+    std::error_code ignored;
+    if (!std::filesystem::exists(options.map, ignored)) return false;
+    if (std::filesystem::is_directory(options.map, ignored)) {
+        throw store_error(options.map.string(), "is a folder, not a file",
+                          "choose another name with -o");
+    }
+    if (options.existing == if_exists::replace) return false;
+    if (options.existing == if_exists::refuse) {
+        throw store_error(options.map.string(), "there is already a file of that name",
+                          "remove it or choose another name with -o");
+    }
+    const hdf5_guard guard;
+    const hdf5_file file = hdf5_file::open(options.map);
+    const bool has_one = file.has_attribute("/", "fingerprint");
+    require_same_scene(options.map, has_one ? file.attribute_text("/", "fingerprint") : "missing",
+                       options.fingerprint);
+    return true;
+}
+
+/// What an earlier run left: kept to go on with, removed, or refused.
+void map_run::implementation::clear_or_refuse() {
+    remove_partial_files(directory);
+    const std::vector<std::uint64_t> present = tiles_present(directory);
+    if (options.existing == if_exists::replace) {
+        remove_tiles(directory);
+    } else if (options.existing == if_exists::refuse && !present.empty()) {
+        throw store_error(directory.string(),
+                          "an unfinished run with " + plural(present.size(), "tile") + " of " +
+                              std::to_string(layout.n_tiles()),
+                          "go on with --resume or remove the folder");
+    } else if (!present.empty() && std::filesystem::exists(description_path(directory))) {
+        const map_description before = read_run_description(directory);
+        require_same_scene(directory, attribute_of(before.attributes, "fingerprint"),
+                           options.fingerprint);
+        if (!is_same(before.layout, layout)) {
+            throw store_error(directory.string(), "an unfinished run with another grid or tiles",
+                              "remove the folder");
+        }
+    }
+}
+
+void map_run::implementation::open() {
+    if (options.role == run_role::helper) return open_as_helper();
+    is_complete = is_map_there();
+    if (is_complete) return;
+    make_directory(directory);
+    lock = std::make_unique<run_lock>(directory);
+    if (!lock->note().empty()) notes.push_back(lock->note());
+    clear_or_refuse();
+    map_description map{layout, options.attributes, {}, {}};
+    set_attribute(map.attributes, "fingerprint", options.fingerprint);
+    write_run_description(directory, completed(map, options.map.string()));
+    scan();
+}
+
+void map_run::implementation::open_as_helper() {
+    const map_description map = read_run_description(directory);
+    require_same_scene(directory, attribute_of(map.attributes, "fingerprint"),
+                       options.fingerprint);
+    for (const std::uint64_t tile : tiles_present(directory)) {
+        if (tile < finished.size()) finished[tile].emplace();  // its owner has checked it
+    }
+}
+
+/// Takes a tile that lies in the directory, or removes it where it is damaged.
+void map_run::implementation::load(std::uint64_t tile) {
+    const std::string place = tile_path(directory, tile).string();
+    try {
+        const compressed_tile stored =
+            read_tile(directory, layout, options.fingerprint, tile);
+        tile_summary summary = summarise(layout, checked_tile(layout, stored, place));
+        summary.seconds = stored.summary.seconds;
+        finished[tile] = std::move(summary);
+    } catch (const store_error& error) {
+        remove_file(place);
+        notes.push_back(place + " (" + error.reason() + "): removed, it is computed again");
+    }
+}
+
+void map_run::implementation::scan() {
+    for (const std::uint64_t tile : tiles_present(directory)) {
+        if (tile < finished.size() && !finished[tile]) load(tile);
+    }
+}
+
+std::uint64_t map_run::implementation::n_finished() const {
+    return static_cast<std::uint64_t>(
+        std::count_if(finished.begin(), finished.end(), [](const auto& t) { return t.has_value(); }));
+}
+
+std::vector<layer_sum> map_run::implementation::sums() const {
+    std::vector<layer_sum> total(layout.layers.size());
+    for (const auto& tile : finished) {
+        for (std::size_t i = 0; tile && i < tile->sums.size(); ++i) total[i] += tile->sums[i];
+    }
+    return total;
+}
+
+void map_run::implementation::require_all_tiles() const {
+    const auto first = std::find(finished.begin(), finished.end(), std::nullopt);
+    if (first == finished.end()) return;
+    throw store_error(directory.string(),
+                      plural(finished.size() - n_finished(), "tile") + " of " +
+                          std::to_string(finished.size()) + " missing, the first one is " +
+                          std::to_string(first - finished.begin()),
+                      "go on with --resume");
+}
+
+map_description map_run::implementation::description(const map_summary& summary) const {
+    map_description map{layout, options.attributes, summary.attractors, summary.point_columns};
+    for (const auto& [name, value] : summary.attributes) set_attribute(map.attributes, name, value);
+    set_attribute(map.attributes, "fingerprint", options.fingerprint);
+    set_attribute(map.attributes, "hash", map_hash(layout, sums()));
+    return completed(std::move(map), options.map.string());
+}
+
+/// At least what the packed map needs: tile files hold the same chunks and more around them.
+std::uint64_t map_run::implementation::bytes_of_tiles() const {
+    std::uint64_t bytes = 0;
+    for (std::uint64_t tile = 0; tile < finished.size(); ++tile) {
+        std::error_code missing;  // reading the tile will say so
+        const std::uint64_t size = std::filesystem::file_size(tile_path(directory, tile), missing);
+        if (!missing) bytes += size;
+    }
+    return bytes;
+}
+
+void map_run::implementation::pack(const std::filesystem::path& partial,
+                                   const map_description& map) {
+    const hdf5_guard guard;
+    hdf5_file file = hdf5_file::create(partial);
+    write_description(file, map);
+    std::vector<tile_row> rows;
+    for (std::uint64_t index = 0; index < finished.size(); ++index) {
+        const compressed_tile tile = read_tile(directory, layout, options.fingerprint, index);
+        if (tile.summary.sums != finished[index]->sums) {
+            throw store_error(tile_path(directory, index).string(),
+                              "the tile changed since it was finished", "run again with --resume");
+        }
+        for (std::size_t i = 0; i < layout.layers.size(); ++i) {
+            file.write_chunk(layout.layers[i].name, tile.box.origin, tile.chunks[i]);
+        }
+        rows.push_back({tile.box, tile.summary.sums, tile.summary.seconds});
+    }
+    write_tile_table(file, layout, rows);
+    file.close();
+}
+
+void map_run::implementation::leave(bool is_done) noexcept {
+    if (!lock) return;
+    try {
+        if (is_done || tiles_present(directory).empty()) remove_directory(directory);
+    } catch (const std::exception&) {
+        // Left-over files do no harm: the next run finds and removes them.
+    }
+    lock.reset();
+    std::error_code ignored;  // gone only where it is empty
+    std::filesystem::remove(directory, ignored);
+}
+
+map_run::map_run(const map_layout& layout, const run_options& options)
+    : self_(std::make_unique<implementation>(layout, options)) {
+    self_->open();
+}
+
+map_run::~map_run() {
+    if (self_) self_->leave(false);
+}
+
+map_run::map_run(map_run&&) noexcept = default;
+map_run& map_run::operator=(map_run&&) noexcept = default;
+
+bool map_run::complete() const { return self_->is_complete; }
+
+const std::vector<std::string>& map_run::notes() const { return self_->notes; }
+
+std::vector<std::uint64_t> map_run::finished_tiles() const {
+    const std::lock_guard guard(self_->mutex);
+    std::vector<std::uint64_t> tiles;
+    for (std::uint64_t i = 0; i < self_->finished.size(); ++i) {
+        if (self_->is_complete || self_->finished[i]) tiles.push_back(i);
+    }
+    return tiles;
+}
+
+std::vector<std::uint64_t> map_run::missing_tiles() const {
+    const std::lock_guard guard(self_->mutex);
+    std::vector<std::uint64_t> tiles;
+    for (std::uint64_t i = 0; i < self_->finished.size(); ++i) {
+        if (!self_->is_complete && !self_->finished[i]) tiles.push_back(i);
+    }
+    return tiles;
+}
+
+void map_run::put(const compressed_tile& tile) {
+    const tile_box box = box_of(self_->layout, tile.box.index);
+    if (box.origin != tile.box.origin || box.extent != tile.box.extent) {
+        throw std::invalid_argument("tile " + std::to_string(box.index) +
+                                    " does not lie where the map has it");
+    }
+    write_tile(self_->directory, self_->layout, self_->options.fingerprint, tile);
+    const std::lock_guard guard(self_->mutex);
+    self_->finished[box.index] = tile.summary;
+}
+
+tile_data map_run::read(std::uint64_t tile) const {
+    const compressed_tile stored =
+        read_tile(self_->directory, self_->layout, self_->options.fingerprint, tile);
+    return checked_tile(self_->layout, stored, tile_path(self_->directory, tile).string());
+}
+
+value_counts map_run::counts(std::string_view layer) const {
+    const std::lock_guard guard(self_->mutex);
+    const std::size_t index = layer_index(self_->layout, layer);
+    value_counts total;
+    for (const auto& tile : self_->finished) {
+        if (!tile || index >= tile->counts.size()) continue;
+        for (const auto& [value, n] : tile->counts[index]) total[value] += n;
+    }
+    return total;
+}
+
+std::string map_run::hash() const {
+    const std::lock_guard guard(self_->mutex);
+    return map_hash(self_->layout, self_->sums());
+}
+
+void map_run::rescan() {
+    const std::lock_guard guard(self_->mutex);
+    self_->scan();
+}
+
+void map_run::finish(const map_summary& summary) {
+    const std::lock_guard guard(self_->mutex);
+    if (self_->is_complete) return;
+    self_->require_all_tiles();
+    const std::filesystem::path partial = partial_name(self_->directory / "map.h5");
+    try {
+        require_room(partial, self_->bytes_of_tiles());
+        self_->pack(partial, self_->description(summary));
+        flush_to_disk(partial);
+        rename_into_place(partial, self_->options.map);
+    } catch (...) {
+        std::error_code ignored;
+        std::filesystem::remove(partial, ignored);
+        throw;
+    }
+    self_->is_complete = true;
+    self_->leave(true);
+}
+
+std::filesystem::path map_run::directory_of(const std::filesystem::path& map) {
+    return hopscotch::directory_of(map);
+}
+
+}  // namespace hopscotch

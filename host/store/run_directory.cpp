@@ -1,0 +1,103 @@
+#include "host/store/run_directory.hpp"
+
+#include "host/store/atomic_file.hpp"
+#include "host/store/tile_file.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+namespace hopscotch {
+
+namespace {
+
+/// Calls visit(path) for every file of the directory; the list is made first, so that visit may remove.
+template <class Visit>
+void for_each_file(const std::filesystem::path& directory, Visit&& visit) {
+    std::error_code error;
+    std::vector<std::filesystem::path> files;
+    for (std::filesystem::directory_iterator each(directory, error), end; !error && each != end;
+         each.increment(error)) {
+        files.push_back(each->path());
+    }
+    if (error) throw system_error_at(directory.string(), "cannot be listed", error.value());
+    for (const std::filesystem::path& file : files) visit(file);
+}
+
+bool is_partial(const std::filesystem::path& file) {
+    return file.filename().string().find(partial_mark) != std::string::npos;
+}
+
+}  // namespace
+
+std::filesystem::path directory_of(const std::filesystem::path& map) {
+    std::filesystem::path directory = map;
+    directory += ".tiles";
+    return directory;
+}
+
+std::filesystem::path description_path(const std::filesystem::path& directory) {
+    return directory / "run.h5";
+}
+
+void make_directory(const std::filesystem::path& directory) {
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (error) throw system_error_at(directory.string(), "cannot be made", error.value());
+}
+
+void remove_file(const std::filesystem::path& file) {
+    std::error_code error;
+    std::filesystem::remove(file, error);
+    if (error) throw system_error_at(file.string(), "cannot be removed", error.value());
+}
+
+std::vector<std::uint64_t> tiles_present(const std::filesystem::path& directory) {
+    std::vector<std::uint64_t> tiles;
+    for_each_file(directory, [&](const std::filesystem::path& file) {
+        if (const auto tile = tile_of(file)) tiles.push_back(*tile);
+    });
+    std::sort(tiles.begin(), tiles.end());
+    return tiles;
+}
+
+void remove_partial_files(const std::filesystem::path& directory) {
+    for_each_file(directory, [](const std::filesystem::path& file) {
+        if (is_partial(file)) remove_file(file);
+    });
+}
+
+void remove_tiles(const std::filesystem::path& directory) {
+    for_each_file(directory, [](const std::filesystem::path& file) {
+        if (tile_of(file)) remove_file(file);
+    });
+}
+
+void remove_directory(const std::filesystem::path& directory) {
+    remove_tiles(directory);
+    remove_partial_files(directory);
+    remove_file(description_path(directory));
+    std::error_code ignored;  // somebody may have put a file of his own there
+    std::filesystem::remove(directory, ignored);
+}
+
+void write_run_description(const std::filesystem::path& directory, const map_description& map) {
+    const std::filesystem::path path = description_path(directory);
+    std::vector<std::byte> image;
+    {
+        const hdf5_guard guard;
+        hdf5_file file = hdf5_file::create_in_memory(path.string());
+        write_description(file, map);
+        image = file.image();
+    }
+    write_atomically(path, image);
+}
+
+map_description read_run_description(const std::filesystem::path& directory) {
+    const std::filesystem::path path = description_path(directory);
+    const std::vector<std::byte> image = read_bytes(path);
+    const hdf5_guard guard;
+    hdf5_file file = hdf5_file::open_image(image, path.string());
+    return read_description(file);
+}
+
+}  // namespace hopscotch

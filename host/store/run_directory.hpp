@@ -1,0 +1,39 @@
+// The files of an unfinished map: `<map>.tiles/` with `run.h5` (the map without numbers), `lock` and
+// one file per finished tile. Knows their names; map_run decides what happens to them.
+#pragma once
+
+#include "host/store/map_file.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hopscotch {
+
+std::filesystem::path directory_of(const std::filesystem::path& map);
+std::filesystem::path description_path(const std::filesystem::path& directory);
+
+/// Makes the directory and those above it. \error store_error
+void make_directory(const std::filesystem::path& directory);
+
+/// Removes a file, whether or not it is there. \error store_error
+void remove_file(const std::filesystem::path& file);
+
+/// Tiles whose file is there, in ascending order; nothing is read.
+std::vector<std::uint64_t> tiles_present(const std::filesystem::path& directory);
+
+/// Removes what a killed run left under temporary names.
+void remove_partial_files(const std::filesystem::path& directory);
+
+void remove_tiles(const std::filesystem::path& directory);
+
+/// Removes tiles, description and temporary files, and the directory once it is empty.
+void remove_directory(const std::filesystem::path& directory);
+
+void write_run_description(const std::filesystem::path& directory, const map_description& map);
+
+/// \error store_error where there is none or it cannot be read
+map_description read_run_description(const std::filesystem::path& directory);
+
+}  // namespace hopscotch

@@ -1,0 +1,25 @@
+// Fills a model's entry from its contract; used by the generated entry units.
+#pragma once
+
+#include "kernels/contract/entry.hpp"
+#include "kernels/contract/model.hpp"
+
+namespace hopscotch::inline HOPSCOTCH_TARGET {
+
+/// The parts of an entry that come from the header alone; kernels and orbits are added by the unit.
+template <class Model>
+constexpr model_entry described_entry() {
+    model_entry entry{};
+    entry.info = &Model::info;
+    entry.n_variants = Model::n_variants;
+    entry.variant = &Model::variant;
+    entry.refusal = &Model::refusal;
+    if constexpr (labels_by_certificate<Model>) {
+        entry.certificate_covers = &Model::certificate_covers;
+        entry.describe_label = &Model::describe_label;
+    }
+    if constexpr (has_branches<Model>) entry.branch = &Model::branch;
+    return entry;
+}
+
+}  // namespace hopscotch::inline HOPSCOTCH_TARGET

@@ -1,0 +1,89 @@
+// The plain data that passes between host and kernels: which cells to compute, when an orbit is
+// decided, and where the results go. The same structure serves every backend and target.
+#pragma once
+
+#include "kernels/contract/info.hpp"
+
+#include <cstdint>
+
+namespace hopscotch {
+
+/// Where one number of a cell comes from: a table along an axis, a list of rows, or a constant (size 1).
+struct column_source {
+    const double* values = nullptr;
+    std::uint64_t stride = 1;
+    std::uint64_t size = 1;
+
+    constexpr std::uint64_t index(std::uint64_t cell) const { return (cell / stride) % size; }
+    constexpr double at(std::uint64_t cell) const { return values[index(cell)]; }
+};
+
+/// States between the two ends (both included) of the section's first column carry `label`.
+struct trap_interval {
+    double lowest;
+    double highest;
+    std::int32_t label;
+};
+
+/// What decides an orbit, besides its own end.
+enum class decision : std::uint8_t {
+    returns,      // nothing: the orbit runs for the returns asked for
+    certificate,  // the model's own proof
+    intervals,    // entering one of the trap intervals of its parameter point
+};
+
+/// One rectangle of cells (or list of rows) for one kernel call. Null results are not wanted.
+struct ensemble_request {
+    std::uint64_t n_cells = 0;
+    int section = 0;
+    int end_section = 0;  // whose columns completed returns are read on; filled in by the kernel
+    column_source columns[most_columns];
+    column_source parameters[most_parameters];
+    int options[most_options] = {};
+
+    std::uint32_t max_returns = 1;
+    double max_steps = 1e5;  // steps of work per return before the outcome `budget`
+    decision decided_by = decision::returns;
+    std::int16_t died_label = 0;  // label of orbits that end by the outcome `stuck` or `rest`
+
+    const trap_interval* traps = nullptr;  // [parameter point][n_traps]
+    int n_traps = 0;
+    column_source trap_point;              // value = index of the cell's parameter point
+
+    std::int16_t* label = nullptr;
+    std::uint8_t* outcome = nullptr;
+    std::uint32_t* returns = nullptr;
+    std::uint32_t* events = nullptr;
+    double* time = nullptr;
+    double* state[most_columns] = {};
+    double* extras[most_extras] = {};
+
+    constexpr bool wants_extras() const {
+        for (const double* extra : extras) {
+            if (extra != nullptr) return true;
+        }
+        return false;
+    }
+};
+
+/// How full the lanes were: steps that advanced a trajectory over steps issued.
+struct lane_statistics {
+    std::uint64_t issued = 0;
+    std::uint64_t useful = 0;
+
+    constexpr double efficiency() const {
+        return issued == 0 ? 1.0 : static_cast<double>(useful) / static_cast<double>(issued);
+    }
+    constexpr lane_statistics& operator+=(const lane_statistics& other) {
+        issued += other.issued;
+        useful += other.useful;
+        return *this;
+    }
+};
+
+using ensemble_function = lane_statistics (*)(const ensemble_request&);
+
+enum class backend : std::uint8_t { scalar, avx2, avx512, cuda };
+inline constexpr int n_backends = 4;
+
+}  // namespace hopscotch

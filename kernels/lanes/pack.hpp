@@ -1,0 +1,268 @@
+// `pack<n>`: n xsimd registers of doubles moving together, so that one instruction stream keeps
+// several registers in flight. The only header that includes xsimd and intrinsics; compiled only
+// into the avx2 and avx512 targets.
+#pragma once
+
+#include "kernels/lanes/scalar.hpp"
+
+#include <xsimd/xsimd.hpp>
+
+namespace hopscotch::inline HOPSCOTCH_TARGET {
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+using simd_arch = xsimd::avx512dq;
+#else
+using simd_arch = xsimd::fma3<xsimd::avx2>;
+#endif
+using simd_register = xsimd::batch<double, simd_arch>;
+using simd_mask = xsimd::batch_bool<double, simd_arch>;
+
+// xsimd 8.1 has no fused multiply-add for AVX-512 (its generic one rounds twice), hence the intrinsic.
+inline simd_register fused(const simd_register& a, const simd_register& b, const simd_register& c) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+    return _mm512_fmadd_pd(a, b, c);
+#else
+    return _mm256_fmadd_pd(a, b, c);
+#endif
+}
+
+inline simd_register magnitude_bits() {
+    return simd_register(std::bit_cast<double>(0x7fffffffffffffffull));
+}
+
+inline simd_register negated_where(const simd_mask& condition, const simd_register& x) {
+    const simd_register sign(-0.0);
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+    return _mm512_mask_xor_pd(x, condition, x, sign);
+#else
+    return _mm256_xor_pd(x, _mm256_and_pd(condition, sign));
+#endif
+}
+
+template <int Bit>
+inline simd_mask register_has_bit(const simd_register& x) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+    return _mm512_test_epi64_mask(_mm512_castpd_si512(x), _mm512_set1_epi64(1ll << Bit));
+#else
+    const __m256i bit = _mm256_set1_epi64x(1ll << Bit);
+    return _mm256_castsi256_pd(
+        _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_castpd_si256(x), bit), bit));
+#endif
+}
+
+template <int Registers>
+struct pack_mask {
+    simd_mask part[Registers];
+
+    // Copied register by register: g++ 12 copies the array as bytes, through memory, 16 at a time.
+    pack_mask() = default;
+    pack_mask(const pack_mask& other) { copy(other); }
+    pack_mask& operator=(const pack_mask& other) { return copy(other); }
+    pack_mask& copy(const pack_mask& other) {
+#pragma GCC unroll 8
+        for (int i = 0; i < Registers; ++i) part[i] = other.part[i];
+        return *this;
+    }
+
+    template <class Function>
+    static pack_mask each(Function&& function) {
+        pack_mask result;
+#pragma GCC unroll 8
+        for (int i = 0; i < Registers; ++i) result.part[i] = function(i);
+        return result;
+    }
+    friend pack_mask operator&(const pack_mask& a, const pack_mask& b) {
+        return each([&](int i) { return a.part[i] & b.part[i]; });
+    }
+    friend pack_mask operator|(const pack_mask& a, const pack_mask& b) {
+        return each([&](int i) { return a.part[i] | b.part[i]; });
+    }
+    friend pack_mask operator!(const pack_mask& a) {
+        return each([&](int i) { return !a.part[i]; });
+    }
+    friend bool any(const pack_mask& a) {
+        simd_mask joined = a.part[0];
+#pragma GCC unroll 8
+        for (int i = 1; i < Registers; ++i) joined = joined | a.part[i];
+        return xsimd::any(joined);
+    }
+    friend bool all(const pack_mask& a) {
+        simd_mask joined = a.part[0];
+#pragma GCC unroll 8
+        for (int i = 1; i < Registers; ++i) joined = joined & a.part[i];
+        return xsimd::all(joined);
+    }
+};
+
+template <int Registers>
+struct pack {
+    simd_register part[Registers];
+
+    pack() = default;
+    pack(const pack& other) { copy(other); }
+    pack& operator=(const pack& other) { return copy(other); }
+    pack& copy(const pack& other) {
+#pragma GCC unroll 8
+        for (int i = 0; i < Registers; ++i) part[i] = other.part[i];
+        return *this;
+    }
+    pack(double x) {  // NOLINT(google-explicit-constructor): constants mix with lanes
+#pragma GCC unroll 8
+        for (int i = 0; i < Registers; ++i) part[i] = simd_register(x);
+    }
+
+    template <class Function>
+    static pack each(Function&& function) {
+        pack result;
+#pragma GCC unroll 8
+        for (int i = 0; i < Registers; ++i) result.part[i] = function(i);
+        return result;
+    }
+    template <class Function>
+    static pack_mask<Registers> mask_each(Function&& function) {
+        return pack_mask<Registers>::each(function);
+    }
+
+    friend pack operator+(const pack& a, const pack& b) {
+        return each([&](int i) { return a.part[i] + b.part[i]; });
+    }
+    friend pack operator-(const pack& a, const pack& b) {
+        return each([&](int i) { return a.part[i] - b.part[i]; });
+    }
+    friend pack operator*(const pack& a, const pack& b) {
+        return each([&](int i) { return a.part[i] * b.part[i]; });
+    }
+    friend pack operator/(const pack& a, const pack& b) {
+        return each([&](int i) { return a.part[i] / b.part[i]; });
+    }
+    friend pack operator-(const pack& a) {
+        return each([&](int i) { return a.part[i] ^ simd_register(-0.0); });
+    }
+    pack& operator+=(const pack& b) { return *this = *this + b; }
+    pack& operator-=(const pack& b) { return *this = *this - b; }
+    pack& operator*=(const pack& b) { return *this = *this * b; }
+
+    friend pack_mask<Registers> operator<(const pack& a, const pack& b) {
+        return mask_each([&](int i) { return a.part[i] < b.part[i]; });
+    }
+    friend pack_mask<Registers> operator<=(const pack& a, const pack& b) {
+        return mask_each([&](int i) { return a.part[i] <= b.part[i]; });
+    }
+    friend pack_mask<Registers> operator>(const pack& a, const pack& b) { return b < a; }
+    friend pack_mask<Registers> operator>=(const pack& a, const pack& b) { return b <= a; }
+    friend pack_mask<Registers> operator==(const pack& a, const pack& b) {
+        return mask_each([&](int i) { return a.part[i] == b.part[i]; });
+    }
+
+    friend pack fma(const pack& a, const pack& b, const pack& c) {
+        return each([&](int i) { return fused(a.part[i], b.part[i], c.part[i]); });
+    }
+    friend pack sqrt(const pack& x) {
+        return each([&](int i) { return xsimd::sqrt(x.part[i]); });
+    }
+    friend pack abs(const pack& x) {
+        return each([&](int i) { return x.part[i] & magnitude_bits(); });
+    }
+    friend pack floor(const pack& x) {
+        return each([&](int i) { return xsimd::floor(x.part[i]); });
+    }
+    friend pack nearest(const pack& x) {
+        return each([&](int i) { return xsimd::nearbyint(x.part[i]); });
+    }
+    friend pack copysign(const pack& magnitude, const pack& sign) {
+        return each([&](int i) {
+            return (magnitude.part[i] & magnitude_bits()) | (sign.part[i] & simd_register(-0.0));
+        });
+    }
+    friend pack select(const pack_mask<Registers>& condition, const pack& yes, const pack& no) {
+        return each([&](int i) { return xsimd::select(condition.part[i], yes.part[i], no.part[i]); });
+    }
+    friend pack negate_where(const pack_mask<Registers>& condition, const pack& x) {
+        return each([&](int i) { return negated_where(condition.part[i], x.part[i]); });
+    }
+    friend pack primal(const pack& x) { return x; }
+
+    friend pack power_of_two(const pack& n) {
+        return each([&](int i) {
+            // n + 1023 sits in the low bits of the mantissa of 2^52 + 2^51 + n + 1023
+            const auto shifted = n.part[i] + simd_register(6755399441055744.0 + 1023.0);
+            return xsimd::bitwise_cast<simd_register>(
+                xsimd::bitwise_cast<xsimd::batch<std::uint64_t, simd_arch>>(shifted) << 52);
+        });
+    }
+    friend pack mantissa(const pack& x) {
+        return each([&](int i) {
+            using words = xsimd::batch<std::uint64_t, simd_arch>;
+            const words bits = xsimd::bitwise_cast<words>(x.part[i]);
+            return xsimd::bitwise_cast<simd_register>((bits & words(0x000fffffffffffffull)) |
+                                                      words(0x3ff0000000000000ull));
+        });
+    }
+    friend pack exponent(const pack& x) {
+        return each([&](int i) {
+            using words = xsimd::batch<std::uint64_t, simd_arch>;
+            // biased exponent below the mantissa of 2^52, read back as a double
+            const words biased = xsimd::bitwise_cast<words>(x.part[i]) >> 52;
+            return xsimd::bitwise_cast<simd_register>(biased | words(0x4330000000000000ull)) -
+                   simd_register(4503599627370496.0 + 1023.0);
+        });
+    }
+    template <int Bit>
+    friend pack_mask<Registers> has_bit(const pack& x) {
+        return mask_each([&](int i) { return register_has_bit<Bit>(x.part[i]); });
+    }
+};
+
+/// One bit per lane of a register.
+inline unsigned bits_of(const simd_mask& mask) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+    return static_cast<__mmask8>(mask);
+#else
+    return static_cast<unsigned>(_mm256_movemask_pd(mask));
+#endif
+}
+
+/// Puts consecutive doubles of `from` into the lanes where the mask is set, in order; returns how many.
+template <int Registers>
+inline int fill_lanes(pack<Registers>& to, const pack_mask<Registers>& where, const double* from) {
+    int taken = 0;
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#pragma GCC unroll 8
+    for (int i = 0; i < Registers; ++i) {
+        const unsigned bits = bits_of(where.part[i]);
+        to.part[i] = _mm512_mask_expandloadu_pd(to.part[i], static_cast<__mmask8>(bits), from + taken);
+        taken += __builtin_popcount(bits);
+    }
+#else
+    double* lanes = reinterpret_cast<double*>(&to);
+#pragma GCC unroll 8
+    for (int i = 0; i < Registers; ++i) {
+        const unsigned bits = bits_of(where.part[i]);
+        for (int lane = 0; lane < static_cast<int>(simd_register::size); ++lane) {
+            if ((bits >> lane) & 1) lanes[i * static_cast<int>(simd_register::size) + lane] = from[taken++];
+        }
+    }
+#endif
+    return taken;
+}
+
+/// Number of set lanes.
+template <int Registers>
+inline int count(const pack_mask<Registers>& mask) {
+    int n = 0;
+#pragma GCC unroll 8
+    for (int i = 0; i < Registers; ++i) n += __builtin_popcount(bits_of(mask.part[i]));
+    return n;
+}
+
+template <int Registers>
+struct lane_traits<pack<Registers>> {
+    using mask = pack_mask<Registers>;
+    using primal = pack<Registers>;
+    static constexpr int width = Registers * static_cast<int>(simd_register::size);
+    static constexpr bool is_binary64 = true;
+    static constexpr double rounding = 0x1p-53;
+    static constexpr double root_rounding = 0x1p-26;
+};
+
+}  // namespace hopscotch::inline HOPSCOTCH_TARGET

@@ -1,0 +1,120 @@
+// One trajectory of the passive hopper (or juggler: the same numbers in other coordinates), and how its
+// lift-off speed is stored: as a cell index and the distance to that cell's lossless point, so that the
+// cube-root events next to it keep full relative accuracy (models/passive_hopper.md, H1, H2, H5).
+#pragma once
+
+#include "kernels/passive/half_flight.hpp"
+
+namespace hopscotch::inline HOPSCOTCH_TARGET::passive {
+
+template <class Real>
+struct hopper_lane {
+    // parameters and what follows from them
+    Real inverse_mass;   // 1 / M
+    Real mu;             // M / (1 + M)
+    Real kappa;          // M / (1 + M)^2
+    Real inverse_total;  // 1 / (1 + M)
+    Real restitution;
+    Real damping;
+    Real increment;
+
+    // section state: lift-off speed alpha = centre + centre_low + beta, cell k pi < alpha <= (k + 1) pi
+    Real cell;
+    Real centre;
+    Real centre_low;
+    Real centre_cosine;
+    Real beta;
+
+    // the flight about to be computed: launch from the ground with y1 = 1 + eta, v1 = flight.centre +
+    // flight.offset and gap rate `rebound` (0 unless restitution lets the foot rebound)
+    launch<Real> flight;
+    Real rebound;
+
+    // energy bookkeeping of the current return
+    Real energy;       // alpha^2 at its start, or its equivalent for a flight start
+    Real loss;         // what impacts took from it so far
+    Real from_flight;  // 1 while the first return of a flight start is under way
+
+    Real trapped;  // label proved by the last return, or 0
+
+    // reported
+    Real time;
+    Real events;
+    Real bounces;
+    Real total_loss;
+};
+
+/// alpha of the section state.
+template <class Real>
+HOPSCOTCH_DEVICE inline Real lift_off_speed(const hopper_lane<Real>& lane) {
+    return lane.centre + (lane.centre_low + lane.beta);
+}
+
+/// Index k of the cell (k pi, (k + 1) pi] that holds alpha >= 0; decided with the low part of pi (H5).
+template <class Real>
+HOPSCOTCH_DEVICE inline Real cell_of(Real alpha) {
+    Real k = floor(alpha / pi<Real>());
+    const auto beyond = [&](Real turns) {  // alpha - turns * pi without cancellation error
+        if constexpr (binary64_lane<Real>) {
+            return fma(-turns, Real(2.0 * half_pi_parts::middle), fma(-turns, pi<Real>(), alpha));
+        } else {
+            return alpha - turns * pi<Real>();
+        }
+    };
+    k = select(beyond(k) <= Real(0.0), k - Real(1.0), k);
+    k = select(beyond(k + Real(1.0)) > Real(0.0), k + Real(1.0), k);
+    return larger(k, Real(0.0));
+}
+
+/// Moves the lane's cell data to cell k, for the lanes wanted; beta is left to the caller.
+template <class Real>
+HOPSCOTCH_DEVICE inline void enter_cell(hopper_lane<Real>& lane, Real k, mask_of<Real> wanted) {
+    const lossless<Real> point = lossless_point(k);
+    lane.cell = select(wanted, k, lane.cell);
+    lane.centre = select(wanted, point.high, lane.centre);
+    lane.centre_low = select(wanted, point.low, lane.centre_low);
+    lane.centre_cosine = select(wanted, point.cosine, lane.centre_cosine);
+}
+
+/// Stores a lift-off speed given as one number.
+template <class Real>
+HOPSCOTCH_DEVICE inline void set_lift_off_speed(hopper_lane<Real>& lane, Real alpha,
+                                                mask_of<Real> wanted) {
+    enter_cell(lane, cell_of(alpha), wanted);
+    const Real beta = (alpha - lane.centre) - lane.centre_low;
+    lane.beta = select(wanted, beta, lane.beta);
+}
+
+/// Stores the lift-off speed centre + beta, moving to another cell where beta has left this one.
+template <class Real>
+HOPSCOTCH_DEVICE inline void set_distance(hopper_lane<Real>& lane, Real beta,
+                                          mask_of<Real> wanted) {
+    const Real k = cell_of(larger(lane.centre + (lane.centre_low + beta), Real(0.0)));
+    const mask_of<Real> leaves = wanted & !(k == lane.cell);
+    Real shifted = beta;
+    if (any(leaves)) {
+        const Real high = lane.centre;
+        const Real low = lane.centre_low;
+        enter_cell(lane, k, leaves);
+        shifted = select(leaves, beta + ((high - lane.centre) + (low - lane.centre_low)), beta);
+    }
+    lane.beta = select(wanted, shifted, lane.beta);
+}
+
+/// Prepares the flight that follows the section state.
+template <class Real>
+HOPSCOTCH_DEVICE inline void launch_from_section(hopper_lane<Real>& lane, mask_of<Real> wanted) {
+    const Real alpha = lift_off_speed(lane);
+    lane.flight.centre = select(wanted, lane.centre, lane.flight.centre);
+    lane.flight.cosine = select(wanted, lane.centre_cosine, lane.flight.cosine);
+    lane.flight.offset = select(wanted, lane.beta, lane.flight.offset);
+    // a damped spring lifts off at y1 = 1 - 2 zeta alpha
+    const Real eta = Real(0.0) - Real(2.0) * lane.damping * alpha;
+    lane.flight.eta = select(wanted, eta, lane.flight.eta);
+    lane.rebound = select(wanted, Real(0.0), lane.rebound);
+    lane.energy = select(wanted, alpha * alpha, lane.energy);
+    lane.loss = select(wanted, Real(0.0), lane.loss);
+    lane.from_flight = select(wanted, Real(0.0), lane.from_flight);
+}
+
+}  // namespace hopscotch::inline HOPSCOTCH_TARGET::passive
