@@ -45,12 +45,15 @@ std::vector<double> points_towards(double base, double end) {
 /// The unstable fixed point left of the base, where added energy has put it; the base itself without.
 std::optional<double> lower_end(const return_map_samples& map, const map_branch& branch,
                                 double floor) {
+    if (branch.base == 0.0) {  // the resting state itself is no hop; the smallest hops decide
+        constexpr double smallest = 1e-9;
+        return map.at(smallest) > smallest ? std::optional(0.0) : std::nullopt;
+    }
     const double gain = map.at(branch.base) - branch.base;
     if (std::isnan(gain)) return std::nullopt;
     // next to a semi-stable base the map falls short of the identity by rounding only
     if (std::abs(gain) <= 4e-15 * branch.base) return branch.base;
     if (gain < 0.0) return std::nullopt;
-    if (branch.base == 0.0) return 0.0;
     const auto rises = [&](double x) { return map.at(x) > x; };
     const std::vector<double> left = points_towards(branch.base, floor);
     const std::vector<double> images = map.at(left);
@@ -105,8 +108,8 @@ std::optional<interval_trap> find_interval_trap(const return_map_samples& map,
     const std::vector<double> right = points_towards(branch.base, branch.end);
     const std::vector<double> images = map.at(right);
     double highest = branch.base;
-    double top = map.at(branch.base);
-    double top_at = branch.base;
+    double top = *lowest;
+    double top_at = right.front();
     for (std::size_t i = 0; i < right.size(); ++i) {
         if (!(images[i] >= *lowest)) {
             highest = last_inside(highest, right[i], stays);
@@ -120,7 +123,7 @@ std::optional<interval_trap> find_interval_trap(const return_map_samples& map,
     }
     if (!(highest > branch.base) || top > highest) return std::nullopt;
     interval_trap trap{*lowest, highest, attractor_kind::fixed_point, 1, {*lowest}, 1.0};
-    if (*lowest != branch.base || branch.base == 0.0) identify_attractor(map, top_at, trap);
+    if (*lowest < branch.base || branch.base == 0.0) identify_attractor(map, top_at, trap);
     return trap;
 }
 

@@ -30,10 +30,18 @@ public:
             const char command = rest_.front();
             rest_.remove_prefix(1);
             switch (command) {
-                case 'M': move(); break;
-                case 'L': append({number(), number()}); break;
-                case 'Q': curve(); break;
-                default: arc(); break;
+                case 'M':
+                    move();
+                    break;
+                case 'L':
+                    append({number(), number()});
+                    break;
+                case 'Q':
+                    curve();
+                    break;
+                default:
+                    arc();
+                    break;
             }
         }
         return lines_;
@@ -211,8 +219,8 @@ void canvas::stroke(std::span<const polyline> lines, double width, rgb colour) {
             double nearest = reach;
             for (const polyline& each : lines) {
                 for (std::size_t i = 0; i + 1 < each.size(); ++i) {
-                    nearest = std::min(nearest,
-                                       distance_to({x + 0.5, y + 0.5}, each[i], each[i + 1]));
+                    nearest =
+                        std::min(nearest, distance_to({x + 0.5, y + 0.5}, each[i], each[i + 1]));
                 }
             }
             blend(x, y, colour, std::clamp(reach - nearest, 0.0, 1.0) * std::min(width, 1.0));

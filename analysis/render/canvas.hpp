@@ -44,7 +44,7 @@ using polyline = std::vector<point>;
 enum class align : std::uint8_t { start, middle, end };
 
 struct text_style {
-    double size = 20.0;  // height of a line in pixels; capitals are 0.58 of it
+    double size = 20.0;   // height of a line in pixels; capitals are 0.58 of it
     double weight = 1.0;  // stroke width relative to the regular one
     rgb colour = ink;
     align across = align::start;

@@ -13,6 +13,7 @@ struct entry {
 
 constexpr glyph unknown{6, "M0 0L6 0L6 11L0 11L0 0"};
 
+// clang-format off
 constexpr std::array table{
     entry{U'0', {8, "O4 6.5 4 6.5 0 360"}},
     entry{U'1', {8, "M1.6 10.4L4.8 13L4.8 0"}},
@@ -112,6 +113,7 @@ constexpr std::array table{
     entry{U'y', {7.4, "M0 9L3.8 0M7.4 9L3.3 -1.7Q2.4 -4 0.2 -3.9"}},
     entry{U'z', {6.8, "M0.2 9L6.6 9L0 0L6.8 0"}},
 };
+// clang-format on
 
 }  // namespace
 

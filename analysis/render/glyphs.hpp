@@ -1,5 +1,5 @@
-// The font of all pictures: letters as strokes, drawn by this project, so that pictures need no font
-// file. Units: baseline 0, small letters 9 high, capitals and digits 13, descent -4.
+// The font of all pictures: letters as strokes, drawn by this project, so that pictures need no
+// font file. Units: baseline 0, small letters 9 high, capitals and digits 13, descent -4.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,8 @@
 namespace hopscotch::picture {
 
 /// Strokes in a small path language: `M x y` move, `L x y` line, `Q cx cy x y` quadratic curve,
-/// `O cx cy rx ry from to` arc of an ellipse in degrees, joined to the point before unless after `M`.
+/// `O cx cy rx ry from to` arc of an ellipse in degrees, joined to the point before unless after
+/// `M`.
 struct glyph {
     double width;  // of its ink; letters stand `letter_gap` apart
     std::string_view path;

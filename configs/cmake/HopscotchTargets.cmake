@@ -7,4 +7,4 @@ set(HOPSCOTCH_FLAGS_avx512
 # registers per pack: how many instruction streams are in flight (0: plain double)
 set(HOPSCOTCH_REGISTERS_scalar 0)
 set(HOPSCOTCH_REGISTERS_avx2 2)
-set(HOPSCOTCH_REGISTERS_avx512 2)
+set(HOPSCOTCH_REGISTERS_avx512 3)

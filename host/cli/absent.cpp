@@ -31,7 +31,8 @@ void add_absent(CLI::App& program, int&) {
             program.add_subcommand(what.name, std::string(what.meaning) + " (not in this version)");
         command->allow_extras();
         command->callback([&what] {
-            throw usage_error(fmt::format("{} (not in this version); {}?", what.name, what.instead));
+            throw usage_error(
+                fmt::format("{} (not in this version); {}?", what.name, what.instead));
         });
     }
 }

@@ -1,4 +1,5 @@
-// hopscotch attractors SCENE.toml: the periodic orbits and resting states that label the scene's cells.
+// hopscotch attractors SCENE.toml: the periodic orbits and resting states that label the scene's
+// cells.
 #include "analysis/labels/plan.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/tables.hpp"
@@ -6,6 +7,7 @@
 #include "host/run/json.hpp"
 #include "host/scene/scene.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -20,10 +22,14 @@ struct attractor_arguments {
     std::string output;
 };
 
+/// The first few; all of them are in the JSON file.
 std::string numbers_text(const std::vector<double>& numbers) {
+    constexpr std::size_t most = 4;
     std::string text;
-    for (const double x : numbers) text += fmt::format("{}{:.17g}", text.empty() ? "" : " ", x);
-    return text;
+    for (std::size_t i = 0; i < std::min(numbers.size(), most); ++i) {
+        text += fmt::format("{}{:.17g}", i == 0 ? "" : " ", numbers[i]);
+    }
+    return numbers.size() > most ? text + " ..." : text;
 }
 
 std::string table_of(const label_plan& plan) {
@@ -56,7 +62,10 @@ int attractors(const attractor_arguments& given) {
     const scene scene = read_scene(given.scene, given.overrides);
     const label_plan plan = plan_labels(scene);
     fmt::print("{}", table_of(plan));
-    if (!given.output.empty()) put_text(given.output, json_of(scene, plan));
+    const std::string stem = std::filesystem::path(scene.file).stem().string();
+    const std::string file = given.output.empty() ? stem + "_attractors.json" : given.output;
+    put_text(file, json_of(scene, plan));
+    if (file != "-") fmt::print("{}\n", file);
     return exit_done;
 }
 
@@ -67,7 +76,8 @@ void add_attractors(CLI::App& program, int& exit_code) {
     CLI::App* command = program.add_subcommand("attractors", "The attractors of a scene");
     command->add_option("scene", given->scene, "Scene file (TOML)")->required();
     command->add_option("overrides", given->overrides, "key=value: scene values to replace");
-    command->add_option("-o,--output", given->output, "JSON file for the table");
+    command->add_option("-o,--output", given->output,
+                        "JSON file; SCENE_attractors.json if not given");
     command->callback([given, &exit_code] { exit_code = attractors(*given); });
 }
 

@@ -1,5 +1,5 @@
-// The commands of the program. Each `add_...` tells the parser its arguments and what to do with them;
-// what it does lies in the file of the same name.
+// The commands of the program. Each `add_...` tells the parser its arguments and what to do with
+// them; what it does lies in the file of the same name.
 #pragma once
 
 namespace CLI {

@@ -43,10 +43,12 @@ void check_header(const csv_table& table) {
     for (std::size_t i = 0; i < table.header.size(); ++i) {
         const std::string_view name = table.header[i];
         if (name.empty()) {
-            throw scene_error({place, fmt::format("header, column {}", i), "", "it has no name", ""});
+            throw scene_error(
+                {place, fmt::format("header, column {}", i), "", "it has no name", ""});
         }
         if (std::count(table.header.begin(), table.header.end(), name) > 1) {
-            throw scene_error({place, "header", std::string(name), "the name stands there twice", ""});
+            throw scene_error(
+                {place, "header", std::string(name), "the name stands there twice", ""});
         }
     }
 }
@@ -57,8 +59,8 @@ void add_row(csv_table& table, std::string_view line, std::size_t number) {
     if (fields.size() != table.header.size()) {
         const std::string why = trimmed(line).empty()
                                     ? "an empty line between rows"
-                                    : fmt::format("{} fields where the header has {}", fields.size(),
-                                                  table.header.size());
+                                    : fmt::format("{} fields where the header has {}",
+                                                  fields.size(), table.header.size());
         throw scene_error({place, fmt::format("row {}", table.n_rows()), "", why, ""});
     }
     table.fields.insert(table.fields.end(), fields.begin(), fields.end());
@@ -67,7 +69,9 @@ void add_row(csv_table& table, std::string_view line, std::size_t number) {
 
 }  // namespace
 
-std::string csv_table::place(std::size_t row) const { return fmt::format("{}:{}", file, lines[row]); }
+std::string csv_table::place(std::size_t row) const {
+    return fmt::format("{}:{}", file, lines[row]);
+}
 
 csv_table parse_csv(std::string_view text, std::string file) {
     csv_table table;
@@ -101,7 +105,7 @@ csv_table read_csv(const std::filesystem::path& file) {
         return parse_csv(text, "standard input");
     }
     std::error_code failure;
-    if (!std::filesystem::is_regular_file(file, failure)) {
+    if (!std::filesystem::exists(file, failure) || std::filesystem::is_directory(file, failure)) {
         throw scene_error({file.string(), "input", "", "no such file", ""});
     }
     std::ifstream stream(file, std::ios::binary);

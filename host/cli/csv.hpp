@@ -30,7 +30,8 @@ struct csv_table {
 };
 
 /// \param file  only names the text in messages
-/// \error scene_error naming line and row: no header, a header name twice, fields too few or too many,
+/// \error scene_error naming line and row: no header, a header name twice, fields too few or too
+/// many,
 ///        an empty line between rows, a quote that is not closed
 csv_table parse_csv(std::string_view text, std::string file);
 

@@ -8,7 +8,8 @@
 namespace hopscotch {
 namespace {
 
-/// What lies outside a double's range is infinite or zero: which of them, its decimal exponent says.
+/// What lies outside a double's range is infinite or zero: which of them, its decimal exponent
+/// says.
 double beyond_range(std::string_view text) {
     const bool is_negative = text.front() == '-';
     long position = 0;  // of the first digit that is not zero, counted from the decimal point
@@ -16,7 +17,8 @@ double beyond_range(std::string_view text) {
     bool has_digit = false;
     std::size_t i = is_negative ? 1 : 0;
     for (; i < text.size() && text[i] != 'e' && text[i] != 'E'; ++i) {
-        if (text[i] == '.') has_point = true;
+        if (text[i] == '.')
+            has_point = true;
         else if (has_digit || text[i] != '0') {
             has_digit = true;
             position += has_point ? 0 : 1;

@@ -33,16 +33,18 @@ precision precision_of(const std::string& name) {
 int eval(eval_arguments given) {
     const model_entry& model = model_named(given.model);
     given.what.precision = precision_of(given.precision);
-    const bool needs_orbits = given.what.has_derivative || given.what.precision != precision::binary64;
+    const bool needs_orbits =
+        given.what.has_derivative || given.what.precision != precision::binary64;
     if (needs_orbits && model.orbits_table == nullptr) {
-        throw usage_error(fmt::format("{} (built in double only); --precision double?", given.model));
+        throw usage_error(
+            fmt::format("{} (built in double only); --precision double?", given.model));
     }
     const row_source rows(model, section_named(*model.info, given.section), read_csv(given.input),
                           given.sets);
     const std::vector<std::string> lines = evaluate(rows, given.what);
-    put_text(given.output,
-             output_header(rows, given.what) + "\n" + fmt::format("{}", fmt::join(lines, "\n")) +
-                 (lines.empty() ? "" : "\n"));
+    put_text(given.output, output_header(rows, given.what) + "\n" +
+                               fmt::format("{}", fmt::join(lines, "\n")) +
+                               (lines.empty() ? "" : "\n"));
     return exit_done;
 }
 
@@ -55,8 +57,10 @@ void add_eval(CLI::App& program, int& exit_code) {
     command->add_option("--section", given->section, "Section; the model's first if not given");
     command->add_option("--returns", given->what.returns, "Returns per row (1)")
         ->check(CLI::Range(1u, 4000000000u));
-    command->add_option("--input", given->input, "Table (CSV) of starts; - is standard input")->required();
-    command->add_option("--output", given->output, "Table of results; standard output if not given");
+    command->add_option("--input", given->input, "Table (CSV) of starts; - is standard input")
+        ->required();
+    command->add_option("--output", given->output,
+                        "Table of results; standard output if not given");
     command->add_option("--set", given->sets, "name=value for all rows");
     command->add_option("--precision", given->precision, "double, dd or mp50")
         ->check(CLI::IsMember({"double", "dd", "mp50"}));
@@ -64,9 +68,12 @@ void add_eval(CLI::App& program, int& exit_code) {
         ->check(CLI::IsMember({"auto", "scalar", "avx2", "avx512", "cuda"}));
     command->add_option("--threads", given->what.n_threads, "Threads; all if not given")
         ->check(CLI::Range(1, 65536));
-    command->add_option("--max-events", given->what.max_events, "Events per return before `budget` (1e5)")
+    command
+        ->add_option("--max-events", given->what.max_events,
+                     "Events per return before `budget` (1e5)")
         ->check(CLI::Range(1.0, 1e15));
-    command->add_flag("--derivative", given->what.has_derivative, "Derivatives of the final state too");
+    command->add_flag("--derivative", given->what.has_derivative,
+                      "Derivatives of the final state too");
     command->callback([given, &exit_code] { exit_code = eval(*given); });
 }
 

@@ -46,7 +46,8 @@ row_numbers read_all(const row_source& rows) {
         const start_row row = rows.row(i);
         all.columns.resize(row.columns.size());
         all.parameters.resize(row.parameters.size());
-        for (std::size_t c = 0; c < row.columns.size(); ++c) all.columns[c].push_back(row.columns[c]);
+        for (std::size_t c = 0; c < row.columns.size(); ++c)
+            all.columns[c].push_back(row.columns[c]);
         for (std::size_t p = 0; p < row.parameters.size(); ++p) {
             all.parameters[p].push_back(row.parameters[p]);
         }
@@ -60,11 +61,12 @@ row_numbers read_all(const row_source& rows) {
 
 /// A piece of a group, gathered for one kernel call.
 class row_batch {
-  public:
+public:
     row_batch(const row_source& rows, const evaluation& what, const row_numbers& all,
               const row_group& group, std::size_t begin, std::size_t n)
-        : rows_(rows), indices_(group.rows.begin() + static_cast<std::ptrdiff_t>(begin),
-                                group.rows.begin() + static_cast<std::ptrdiff_t>(begin + n)) {
+        : rows_(rows),
+          indices_(group.rows.begin() + static_cast<std::ptrdiff_t>(begin),
+                   group.rows.begin() + static_cast<std::ptrdiff_t>(begin + n)) {
         request_.n_cells = n;
         request_.section = rows.section();
         request_.max_returns = what.returns;
@@ -91,7 +93,7 @@ class row_batch {
         for (std::size_t i = 0; i < indices_.size(); ++i) lines[indices_[i]] = line(i);
     }
 
-  private:
+private:
     void gather(const std::vector<std::vector<double>>& from, column_source* to) {
         for (std::size_t c = 0; c < from.size(); ++c) {
             auto& table = tables_.emplace_back();
@@ -122,7 +124,8 @@ class row_batch {
     std::vector<std::vector<double>> extras_;
 };
 
-void run_ensembles(const row_source& rows, const evaluation& what, std::vector<std::string>& lines) {
+void run_ensembles(const row_source& rows, const evaluation& what,
+                   std::vector<std::string>& lines) {
     constexpr std::size_t batch = 4096;
     const row_numbers all = read_all(rows);
     for (const row_group& group : all.groups) {
@@ -168,12 +171,14 @@ std::string number_text(double x) { return std::isnan(x) ? "" : fmt::format("{:.
 std::string output_header(const row_source& rows, const evaluation& what) {
     std::string text = "row,outcome,returns,events,time";
     const model_info& info = *rows.model().info;
-    for (const column_info& column : end_section(rows).columns) text += fmt::format(",{}", column.name);
+    for (const column_info& column : end_section(rows).columns)
+        text += fmt::format(",{}", column.name);
     for (const extra_info& extra : info.extras) text += fmt::format(",{}", extra.name);
     if (!what.has_derivative) return text;
     const auto start = info.sections[static_cast<std::size_t>(rows.section())].columns;
     for (const column_info& column : end_section(rows).columns) {
-        for (const column_info& from : start) text += fmt::format(",d({})_d({})", column.name, from.name);
+        for (const column_info& from : start)
+            text += fmt::format(",d({})_d({})", column.name, from.name);
     }
     return text;
 }
@@ -183,8 +188,10 @@ std::vector<std::string> evaluate(const row_source& rows, const evaluation& what
     tbb::global_control threads(tbb::global_control::max_allowed_parallelism, n_threads);
     std::vector<std::string> lines(rows.n_rows());
     const bool is_plain = what.precision == precision::binary64 && !what.has_derivative;
-    if (is_plain) run_ensembles(rows, what, lines);
-    else run_orbits(rows, what, lines);
+    if (is_plain)
+        run_ensembles(rows, what, lines);
+    else
+        run_orbits(rows, what, lines);
     return lines;
 }
 

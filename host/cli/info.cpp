@@ -27,8 +27,8 @@ std::string axis_text(const map_layout& layout) {
 std::string layer_text(const map_layout& layout) {
     rows table{{"layer", "unit", "bytes", "meaning"}};
     for (const layer& layer : layout.layers) {
-        table.push_back({layer.name, layer.unit, bytes_text(layout.n_cells() * bytes_of(layer.type)),
-                         layer.long_name});
+        table.push_back({layer.name, layer.unit,
+                         bytes_text(layout.n_cells() * bytes_of(layer.type)), layer.long_name});
     }
     return aligned(table, 0);
 }
@@ -56,11 +56,13 @@ std::string attribute_text(const map_reader& map) {
 int info(const std::string& file) {
     const map_reader map(file);
     const map_layout& layout = map.layout();
-    fmt::print("{}: {} cells in {} tiles of {}\n\n{}\n{}\n", file, layout.n_cells(), layout.n_tiles(),
-               fmt::join(layout.tile, " x "), axis_text(layout), layer_text(layout));
+    fmt::print("{}: {} cells in {} tiles of {}\n\n{}\n{}\n", file, layout.n_cells(),
+               layout.n_tiles(), fmt::join(layout.tile, " x "), axis_text(layout),
+               layer_text(layout));
     if (!map.attractors().empty()) fmt::print("{}\n", attractor_text(map));
     fmt::print("{}", attribute_text(map));
-    if (!map.is_finished_map()) fmt::print("unfinished: {} tiles are missing\n", map.missing_tiles().size());
+    if (!map.is_finished_map())
+        fmt::print("unfinished: {} tiles are missing\n", map.missing_tiles().size());
     return exit_done;
 }
 

@@ -46,8 +46,8 @@ std::string section_text(const model_info& info) {
                             &target == &section ? "" : fmt::format("; returns to {}", target.name));
         rows table{{"column", "unit", "range", "meaning"}};
         for (const column_info& column : section.columns) {
-            table.push_back({std::string(column.name), std::string(column.unit), written(column.valid),
-                             std::string(column.meaning)});
+            table.push_back({std::string(column.name), std::string(column.unit),
+                             written(column.valid), std::string(column.meaning)});
         }
         text += aligned(table);
     }
@@ -57,7 +57,8 @@ std::string section_text(const model_info& info) {
 std::string option_text(const model_info& info) {
     rows table;
     for (const option_info& option : info.options) {
-        table.push_back({std::string(option.name), fmt::format("{}", fmt::join(option.choices, " | ")),
+        table.push_back({std::string(option.name),
+                         fmt::format("{}", fmt::join(option.choices, " | ")),
                          std::string(option.meaning)});
     }
     return table.empty() ? "" : "options (the first choice is the default)\n" + aligned(table);
@@ -66,7 +67,8 @@ std::string option_text(const model_info& info) {
 std::string extra_text(const model_info& info) {
     rows table;
     for (const extra_info& extra : info.extras) {
-        table.push_back({std::string(extra.name), std::string(extra.unit), std::string(extra.meaning)});
+        table.push_back(
+            {std::string(extra.name), std::string(extra.unit), std::string(extra.meaning)});
     }
     return table.empty() ? "" : "extras\n" + aligned(table);
 }

@@ -8,6 +8,7 @@
 #include "host/run/truth_orbits.hpp"
 #include "host/scene/grid.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 
@@ -21,6 +22,7 @@ struct replay_arguments {
     std::string file;
     std::string cell;
     int samples = 0;
+    std::uint32_t most_returns = 1000;
     std::string trace;
 };
 
@@ -43,15 +45,16 @@ std::vector<std::uint64_t> coordinates_in(const scene& scene, const std::string&
     if (is_inside) return coordinates;
     std::vector<std::uint64_t> cells;
     for (const scene_axis& axis : scene.axes) cells.push_back(axis.cells);
-    throw usage_error(fmt::format("--cell {} (one index per axis, counted from 0, below {}); 0,0?", text,
-                                  fmt::join(cells, ",")));
+    throw usage_error(fmt::format("--cell {} (one index per axis, counted from 0, below {}); 0,0?",
+                                  text, fmt::join(cells, ",")));
 }
 
 int stored_value(const map_reader& map, const std::string& layer,
                  const std::vector<std::uint64_t>& coordinates) {
     cell_range range{coordinates, std::vector<std::uint64_t>(coordinates.size(), 1), {}};
     const std::vector<double> value = map.read(layer, range);
-    if (!map.problems().empty()) throw store_error(map.problems().front(), "the cell cannot be read");
+    if (!map.problems().empty())
+        throw store_error(map.problems().front(), "the cell cannot be read");
     return static_cast<int>(value.at(0));
 }
 
@@ -72,9 +75,21 @@ void print_start(const scene& scene, const std::vector<std::uint64_t>& coordinat
     }
     for (const scene_axis& axis : scene.axes) {
         if (axis.kind != axis_kind::parameter) continue;
-        fmt::print("  {} = {:.17g}", axis.name, start.parameters[static_cast<std::size_t>(axis.index)]);
+        fmt::print("  {} = {:.17g}", axis.name,
+                   start.parameters[static_cast<std::size_t>(axis.index)]);
     }
     fmt::print("\n");
+}
+
+/// At least one return, also of orbits that a proof labels where they start.
+void print_events(const scene& scene, const owned_row& row, const replay_arguments& given) {
+    orbit_row traced = row.row;
+    const std::uint32_t returns = run_orbit(*scene.model, precision::binary64, row.row).returns;
+    traced.decided_by = decision::returns;
+    traced.returns = std::clamp(returns, std::uint32_t{1}, given.most_returns);
+    put_text(given.trace, trace_text(*scene.model, traced, given.samples, trace_format::csv));
+    if (returns > traced.returns)
+        fmt::print("(the first {} of {} returns)\n", traced.returns, returns);
 }
 
 int replay(const replay_arguments& given) {
@@ -83,8 +98,7 @@ int replay(const replay_arguments& given) {
     const std::vector<std::uint64_t> coordinates = coordinates_in(scene, given.cell);
     const label_plan plan = plan_labels(scene);
     const owned_row row = row_of(scene, plan, coordinates);
-    put_text(given.trace, trace_text(*scene.model, row.row, given.samples, trace_format::csv));
-
+    print_events(scene, row, given);
     print_start(scene, coordinates);
     const std::string layer = scene.question.has_labels ? "label" : "outcome";
     const int stored = stored_value(map, layer, coordinates);
@@ -94,8 +108,8 @@ int replay(const replay_arguments& given) {
         const orbit_answer answer = run_orbit(*scene.model, value, row.row);
         best = scene.question.has_labels ? answer.label : static_cast<int>(answer.end);
         fmt::print("{:<8} {}  outcome {}, {} returns, {} events, time {}\n", name_of(value),
-                   value_name(scene, plan, best), name_of(answer.end), answer.returns, answer.events,
-                   answer.time);
+                   value_name(scene, plan, best), name_of(answer.end), answer.returns,
+                   answer.events, answer.time);
     }
     fmt::print("the stored {} {}\n", layer, best == stored ? "holds" : "does not hold");
     return exit_done;
@@ -108,8 +122,12 @@ void add_replay(CLI::App& program, int& exit_code) {
     CLI::App* command = program.add_subcommand("replay", "One cell once more, with every event");
     command->add_option("file", given->file, "Map file (HDF5)")->required();
     command->add_option("--cell", given->cell, "Indices along the axes, as 3,17")->required();
-    command->add_option("--samples", given->samples, "Samples per phase (0)")->check(CLI::Range(0, 1000000));
-    command->add_option("--trace", given->trace, "File for the events; standard output if not given");
+    command->add_option("--samples", given->samples, "Samples per phase (0)")
+        ->check(CLI::Range(0, 1000000));
+    command->add_option("--returns", given->most_returns, "Most returns to show (1000)")
+        ->check(CLI::Range(1u, 4000000000u));
+    command->add_option("--trace", given->trace,
+                        "File for the events; standard output if not given");
     command->callback([given, &exit_code] { exit_code = replay(*given); });
 }
 

@@ -65,7 +65,8 @@ void row_source::take_header() {
         const origin from{table_.file + ":1", fmt::format("header, {}", name)};
         const target to = find(name, from);
         if (is_set_[static_cast<std::size_t>(to.what)][to.index]) {
-            throw scene_error({from.place, from.key, "", "set by --set as well", "remove one of them"});
+            throw scene_error(
+                {from.place, from.key, "", "set by --set as well", "remove one of them"});
         }
         is_set_[static_cast<std::size_t>(to.what)][to.index] = true;
         targets_.push_back(to);
@@ -80,9 +81,10 @@ void row_source::check_complete() const {
         const std::string_view name = section.columns[i].name;
         const std::string place = table_.file.empty() ? "command line" : table_.file + ":1";
         const std::string suggestion = fmt::format("--set {}=...", name);
-        throw scene_error({place, std::string(name), "",
-                           fmt::format("missing: state column of section {}", section.name),
-                           table_.file.empty() ? suggestion : "a column of that name or " + suggestion});
+        throw scene_error(
+            {place, std::string(name), "",
+             fmt::format("missing: state column of section {}", section.name),
+             table_.file.empty() ? suggestion : "a column of that name or " + suggestion});
     }
 }
 
@@ -112,11 +114,13 @@ void row_source::set_number(double& number, std::string& text, std::string_view 
     const auto value = parse_decimal(given);
     if (!value) {
         const std::string why = given.empty() ? "an empty field" : "not a number";
-        throw scene_error({from.place, from.key, std::string(given), why, "a decimal such as 0.25"});
+        throw scene_error(
+            {from.place, from.key, std::string(given), why, "a decimal such as 0.25"});
     }
     const bool must_hold = is_checked || std::isinf(*value);
     if (must_hold && !valid.holds(*value)) {
-        throw scene_error({from.place, from.key, std::string(given), "outside " + written(valid), ""});
+        throw scene_error(
+            {from.place, from.key, std::string(given), "outside " + written(valid), ""});
     }
     number = *value;
     text = given.starts_with('+') ? given.substr(1) : given;
@@ -155,7 +159,8 @@ start_row row_source::row(std::size_t index) const {
     if (table_.header.empty()) {
         throw scene_error({"command line", "--set", "", std::string(why), ""});
     }
-    throw scene_error({table_.place(index), fmt::format("row {}", index), "", std::string(why), ""});
+    throw scene_error(
+        {table_.place(index), fmt::format("row {}", index), "", std::string(why), ""});
 }
 
 }  // namespace hopscotch

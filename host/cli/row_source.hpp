@@ -1,5 +1,5 @@
-// Starting points for `eval`, `trace` and `replay`: state columns, parameters and options by name, from
-// the columns of a table, from `--set`, and from the model's defaults; every value checked.
+// Starting points for `eval`, `trace` and `replay`: state columns, parameters and options by name,
+// from the columns of a table, from `--set`, and from the model's defaults; every value checked.
 #pragma once
 
 #include "host/cli/csv.hpp"
@@ -21,10 +21,11 @@ struct start_row {
 };
 
 class row_source {
-  public:
+public:
     /// \param table  its header names state columns of the section, parameters and options
     /// \param sets   `name=value` for all rows
-    /// \error scene_error: unknown or doubled names, missing state columns, values that are no numbers
+    /// \error scene_error: unknown or doubled names, missing state columns, values that are no
+    /// numbers
     row_source(const model_entry& model, int section, csv_table table,
                std::span<const std::string> sets);
 
@@ -35,11 +36,12 @@ class row_source {
     const model_entry& model() const { return *model_; }
     int section() const { return section_; }
 
-    /// \error scene_error naming file, line, row and column: no number, outside the legal range of a
+    /// \error scene_error naming file, line, row and column: no number, outside the legal range of
+    /// a
     ///        parameter, infinite where that is not legal, no such choice, refused by the model
     start_row row(std::size_t index) const;
 
-  private:
+private:
     enum class kind : std::uint8_t { column, parameter, option };
     struct target {
         kind what = kind::column;
@@ -62,9 +64,9 @@ class row_source {
     int section_;
     csv_table table_;
     std::size_t n_rows_ = 1;
-    std::vector<target> targets_;         // one per column of the table
-    start_row common_;                    // defaults and --set
-    std::vector<bool> is_set_[3];         // by kind: named by --set or the header
+    std::vector<target> targets_;  // one per column of the table
+    start_row common_;             // defaults and --set
+    std::vector<bool> is_set_[3];  // by kind: named by --set or the header
 };
 
 }  // namespace hopscotch

@@ -3,11 +3,11 @@
 #include "analysis/render/render.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/durations.hpp"
+#include "host/cli/text_output.hpp"
 #include "host/run/audit.hpp"
 #include "host/run/estimate.hpp"
 #include "host/run/run_map.hpp"
 #include "host/run/summary.hpp"
-#include "host/store/atomic_file.hpp"
 
 #include <memory>
 
@@ -48,20 +48,22 @@ run_hooks hooks_of(const scene& scene, const std::filesystem::path& file) {
     if (scene.model->orbits_table == nullptr) return hooks;
     hooks.audit = [file](const struct scene& what, const label_plan& plan, const map_run& run) {
         const audit_report report = audit(
-            what, plan, [&](std::uint64_t tile) { return run.read(tile); }, what.accuracy.audit_cells);
+            what, plan, [&](std::uint64_t tile) { return run.read(tile); },
+            what.accuracy.audit_cells);
         return attributes_of(what, report, file);
     };
     return hooks;
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-    write_atomically(file, std::as_bytes(std::span(text)));
+/// A file beside the map, of the same name up to its ending.
+std::filesystem::path companion(std::filesystem::path map, const std::string& ending) {
+    if (map.extension() == ending) return map += ending;
+    return map.replace_extension(ending);
 }
 
 /// The picture is a courtesy: without it the run is still done.
 void write_picture(const run_report& report) {
-    std::filesystem::path picture = report.file;
-    picture.replace_extension(".png");
+    const std::filesystem::path picture = companion(report.file, ".png");
     try {
         render_map(report.file, picture);
         fmt::print("picture          {}\n", picture.string());
@@ -76,17 +78,18 @@ int finish(const scene& scene, const run_report& report) {
         return exit_done;
     }
     fmt::print("{}", text_of(scene, report));
-    std::filesystem::path summary = report.file;
-    write_text(summary.replace_extension(".json"), json_of(scene, report));
+    const std::filesystem::path summary = companion(report.file, ".json");
+    put_text(summary.string(), json_of(scene, report));
     fmt::print("summary          {}\n", summary.string());
     write_picture(report);
     return exit_done;
 }
 
 int interrupted(const run_report& report) {
-    fmt::print(stderr,
-               "hopscotch: {} ({} of {} tiles are done, none is lost); the same command with --resume?\n",
-               report.file.string(), report.n_tiles - report.n_missing, report.n_tiles);
+    fmt::print(
+        stderr,
+        "hopscotch: {} ({} of {} tiles are done, none is lost); the same command with --resume?\n",
+        report.file.string(), report.n_tiles - report.n_missing, report.n_tiles);
     return exit_resumable;
 }
 
@@ -118,8 +121,10 @@ void add_run(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(1, 65536));
     auto* resume = command->add_flag("--resume", given->is_resumed, "Go on with finished tiles");
     command->add_flag("--force", given->is_forced, "Replace an existing map")->excludes(resume);
-    command->add_flag("--dry-run", given->is_dry, "Say cells, bytes, memory and time; compute nothing");
-    command->add_option("--walltime", given->walltime, "H:MM:SS after which the run stops, resumable");
+    command->add_flag("--dry-run", given->is_dry,
+                      "Say cells, bytes, memory and time; compute nothing");
+    command->add_option("--walltime", given->walltime,
+                        "H:MM:SS after which the run stops, resumable");
     command->add_flag("--quiet", given->is_quiet, "No progress line");
     command->callback([given, &exit_code] { exit_code = run(*given); });
 }

@@ -49,11 +49,14 @@ void add_trace(CLI::App& program, int& exit_code) {
     command->add_option("model", given->model, "Model")->required();
     command->add_option("--section", given->section, "Section; the model's first if not given");
     command->add_option("--set", given->sets, "name=value: start, parameters, options");
-    command->add_option("--returns", given->returns, "Returns (1)")->check(CLI::Range(1u, 4000000000u));
+    command->add_option("--returns", given->returns, "Returns (1)")
+        ->check(CLI::Range(1u, 4000000000u));
     command->add_option("--samples", given->samples, "Samples per phase (0)")
         ->check(CLI::Range(0, 1000000));
-    command->add_option("--format", given->format, "csv or jsonl")->check(CLI::IsMember({"csv", "jsonl"}));
-    command->add_option("--max-events", given->max_events, "Events per return before `budget` (1e5)")
+    command->add_option("--format", given->format, "csv or jsonl")
+        ->check(CLI::IsMember({"csv", "jsonl"}));
+    command
+        ->add_option("--max-events", given->max_events, "Events per return before `budget` (1e5)")
         ->check(CLI::Range(1.0, 1e15));
     command->add_option("--output", given->output, "File; standard output if not given");
     command->callback([given, &exit_code] { exit_code = trace(*given); });

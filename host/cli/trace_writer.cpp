@@ -25,7 +25,7 @@ struct trace_record {
 };
 
 class trace_lines final : public orbit_observer {
-  public:
+public:
     trace_lines(const model_info& info, int samples, trace_format format)
         : columns_(info.trace_columns), samples_(samples), format_(format) {
         if (format_ == trace_format::csv) add_header();
@@ -38,7 +38,8 @@ class trace_lines final : public orbit_observer {
         for (int i = 0; i < n; ++i) {
             const double t = n == 1 ? 0.0 : duration * i / (n - 1);
             at.state_at(t, state.data());
-            add({"sample", number_text(start_time + t), "", mode, mode, state.data(), nullptr, std::nan("")});
+            add({"sample", number_text(start_time + t), "", mode, mode, state.data(), nullptr,
+                 std::nan("")});
         }
     }
 
@@ -56,7 +57,7 @@ class trace_lines final : public orbit_observer {
         return std::move(text_);
     }
 
-  private:
+private:
     void add_header() {
         text_ = "record,time,name,mode_left,mode_entered";
         for (const column_info& column : columns_) text_ += fmt::format(",{}", column.name);
@@ -65,8 +66,10 @@ class trace_lines final : public orbit_observer {
     }
 
     void add(const trace_record& record) {
-        if (format_ == trace_format::csv) add_csv(record);
-        else add_json(record);
+        if (format_ == trace_format::csv)
+            add_csv(record);
+        else
+            add_json(record);
     }
 
     void add_csv(const trace_record& record) {
@@ -84,11 +87,12 @@ class trace_lines final : public orbit_observer {
         text_ += fmt::format("{{\"record\": \"{}\", \"time\": {}", record.record, record.time);
         if (!record.name.empty()) text_ += fmt::format(", \"name\": \"{}\"", record.name);
         if (!record.mode_left.empty()) {
-            text_ += fmt::format(", \"mode_left\": \"{}\", \"mode_entered\": \"{}\"", record.mode_left,
-                                 record.mode_entered);
+            text_ += fmt::format(", \"mode_left\": \"{}\", \"mode_entered\": \"{}\"",
+                                 record.mode_left, record.mode_entered);
         }
         if (record.before != nullptr) add_json_state("before", record.before);
-        if (record.state != nullptr) add_json_state(record.before ? "after" : "state", record.state);
+        if (record.state != nullptr)
+            add_json_state(record.before ? "after" : "state", record.state);
         if (std::isfinite(record.loss)) text_ += fmt::format(", \"loss\": {:.17g}", record.loss);
         text_ += "}\n";
     }

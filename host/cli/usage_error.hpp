@@ -7,7 +7,7 @@
 namespace hopscotch {
 
 class usage_error : public std::runtime_error {
-  public:
+public:
     using std::runtime_error::runtime_error;
 };
 

@@ -26,8 +26,8 @@ void recompute(const verify_arguments& given) {
     const audit_report report = audit(
         scene, plan, [&](std::uint64_t tile) { return map.tile(tile); }, given.n_cells, given.seed);
     fmt::print("cells recomputed  {} (dd; disputed ones mp50)\n", report.n_cells);
-    fmt::print("wrong             {}  share {:.17g}, 95 % interval {:.17g} to {:.17g}\n", report.n_wrong,
-               report.share, report.lowest, report.highest);
+    fmt::print("wrong             {}  share {:.17g}, 95 % interval {:.17g} to {:.17g}\n",
+               report.n_wrong, report.share, report.lowest, report.highest);
     for (const cell_verdict& verdict : report.wrong) {
         fmt::print("  stored {} computed {}  hopscotch replay {} --cell {}\n", verdict.stored,
                    verdict.computed, given.file, cell_text(scene, verdict.cell));
@@ -48,9 +48,11 @@ int verify(const verify_arguments& given) {
 
 void add_verify(CLI::App& program, int& exit_code) {
     auto given = std::make_shared<verify_arguments>();
-    CLI::App* command = program.add_subcommand("verify", "Check a map's sums and some of its cells");
+    CLI::App* command =
+        program.add_subcommand("verify", "Check a map's sums and some of its cells");
     command->add_option("file", given->file, "Map file (HDF5)")->required();
-    command->add_option("--cells", given->n_cells, "Random cells to recompute in higher precision (0)");
+    command->add_option("--cells", given->n_cells,
+                        "Random cells to recompute in higher precision (0)");
     command->add_option("--seed", given->seed, "Which random cells (2)");
     command->callback([given, &exit_code] { exit_code = verify(*given); });
 }

@@ -12,7 +12,8 @@ namespace {
 int print_version() {
     const build_info& build = this_build();
     fmt::print("hopscotch {}\n", build.version);
-    fmt::print("revision  {}\ncompiler  {}\nflags     {}\n", build.revision, build.compiler, build.flags);
+    fmt::print("revision  {}\ncompiler  {}\nflags     {}\n", build.revision, build.compiler,
+               build.flags);
     for (int i = 0; i < n_backends; ++i) {
         const auto which = static_cast<backend>(i);
         const std::string reason = reason_against(which);
@@ -24,7 +25,8 @@ int print_version() {
 }  // namespace
 
 void add_version(CLI::App& program, int& exit_code) {
-    CLI::App* command = program.add_subcommand("version", "Version, revision, compiler and backends");
+    CLI::App* command =
+        program.add_subcommand("version", "Version, revision, compiler and backends");
     command->callback([&exit_code] { exit_code = print_version(); });
 }
 

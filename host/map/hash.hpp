@@ -1,6 +1,6 @@
-// The map's hash: one number for all values of a map, the same for any tile size, tile order, thread
-// count and backend. A layer's sum adds up over its tiles, so a tile's checksum is the same sum taken
-// over the tile. Used by the store (checksums, `verify`) and by the cross-backend tests.
+// The map's hash: one number for all values of a map, the same for any tile size, tile order,
+// thread count and backend. A layer's sum adds up over its tiles, so a tile's checksum is the same
+// sum taken over the tile. Used by the store (checksums, `verify`) and by the cross-backend tests.
 #pragma once
 
 #include "host/map/layout.hpp"
@@ -34,8 +34,8 @@ struct layer_sum {
 /// The sum over one tile of one layer.
 ///
 /// \param layer   index into layout.layers; its name enters the mixing, so that layers differ
-/// \param values  the box's values in C order, bytes_of(type) each; every NaN counts as the same value
-/// \error         std::invalid_argument where `values` has the wrong size
+/// \param values  the box's values in C order, bytes_of(type) each; every NaN counts as the same
+/// value \error         std::invalid_argument where `values` has the wrong size
 layer_sum sum_of(const map_layout& layout, const tile_box& box, std::size_t layer,
                  std::span<const std::byte> values);
 

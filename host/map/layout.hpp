@@ -1,5 +1,5 @@
-// The shape of a map before and after it is computed: axes, layers, tiles. Shared by the scheduler, the
-// store and every reader; knows nothing of models or of HDF5.
+// The shape of a map before and after it is computed: axes, layers, tiles. Shared by the scheduler,
+// the store and every reader; knows nothing of models or of HDF5.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,8 @@
 
 namespace hopscotch {
 
-/// One axis of the grid. Cells are sampled at `values` (cell centres unless the scene says `edges`).
+/// One axis of the grid. Cells are sampled at `values` (cell centres unless the scene says
+/// `edges`).
 struct axis {
     std::string name;
     std::string unit;
@@ -26,21 +27,27 @@ enum class number_type : std::uint8_t { uint8, int16, uint32, float64 };
 
 constexpr std::size_t bytes_of(number_type type) {
     switch (type) {
-        case number_type::uint8: return 1;
-        case number_type::int16: return 2;
-        case number_type::uint32: return 4;
-        case number_type::float64: return 8;
+        case number_type::uint8:
+            return 1;
+        case number_type::int16:
+            return 2;
+        case number_type::uint32:
+            return 4;
+        case number_type::float64:
+            return 8;
     }
     return 0;
 }
 
-/// One number per cell. `flags` names the values of categorical layers (CF flag_values/flag_meanings).
+/// One number per cell. `flags` names the values of categorical layers (CF
+/// flag_values/flag_meanings).
 struct layer {
     std::string name;
     number_type type = number_type::float64;
     std::string unit;
     std::string long_name;
-    double fill = 0.0;  // means "not computed"; NaN for float64, -1 for int16, the largest value else
+    double fill =
+        0.0;  // means "not computed"; NaN for float64, -1 for int16, the largest value else
     std::vector<std::pair<int, std::string>> flags;
 };
 
@@ -48,8 +55,9 @@ struct layer {
 struct map_layout {
     std::vector<axis> axes;
     std::vector<layer> layers;
-    std::vector<std::uint64_t> tile;  // cells per tile along each axis (the last tile may be smaller;
-                                      // an entry above the axis' size means the whole axis)
+    std::vector<std::uint64_t>
+        tile;  // cells per tile along each axis (the last tile may be smaller;
+               // an entry above the axis' size means the whole axis)
 
     std::uint64_t n_cells() const;
     std::vector<std::uint64_t> tiles_along() const;  // number of tiles along each axis
@@ -83,14 +91,14 @@ struct tile_data {
 /// One row of the /attractors group.
 struct attractor_row {
     int label = 0;
-    std::string name;               // "fixed point 2", "period 3", "hopping dies", ...
-    int period = 0;                 // 0 = aperiodic
-    std::vector<double> points;     // period x n_columns, C order; empty where there is none
+    std::string name;            // "fixed point 2", "period 3", "hopping dies", ...
+    int period = 0;              // 0 = aperiodic
+    std::vector<double> points;  // period x n_columns, C order; empty where there is none
     std::vector<double> multipliers_real;
     std::vector<double> multipliers_imaginary;
-    std::string trap;               // in words: the set whose members are labelled
-    double share = 0.0;             // of all cells
-    std::uint32_t colour = 0;       // 0xRRGGBB
+    std::string trap;          // in words: the set whose members are labelled
+    double share = 0.0;        // of all cells
+    std::uint32_t colour = 0;  // 0xRRGGBB
 };
 
 /// Global attributes of a finished map, in the order they are written.

@@ -1,4 +1,5 @@
-// Numbers of a layer's type in raw memory, read and written as double (exact for every type we store).
+// Numbers of a layer's type in raw memory, read and written as double (exact for every type we
+// store).
 #pragma once
 
 #include "host/map/layout.hpp"
@@ -12,10 +13,14 @@ namespace hopscotch {
 template <class Visit>
 decltype(auto) with_type(number_type type, Visit&& visit) {
     switch (type) {
-        case number_type::uint8: return visit(std::uint8_t{});
-        case number_type::int16: return visit(std::int16_t{});
-        case number_type::uint32: return visit(std::uint32_t{});
-        case number_type::float64: break;
+        case number_type::uint8:
+            return visit(std::uint8_t{});
+        case number_type::int16:
+            return visit(std::int16_t{});
+        case number_type::uint32:
+            return visit(std::uint32_t{});
+        case number_type::float64:
+            break;
     }
     return visit(double{});
 }

@@ -1,4 +1,5 @@
-// Walks over a rectangle of cells row by row: the runs of cells that are contiguous along the last axis.
+// Walks over a rectangle of cells row by row: the runs of cells that are contiguous along the last
+// axis.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +7,9 @@
 
 namespace hopscotch {
 
-/// Calls visit(position) for every row of a box: `position` holds the coordinates of the row's first
-/// cell relative to the box (the last one is 0), in C order. Nothing is called for an empty box.
+/// Calls visit(position) for every row of a box: `position` holds the coordinates of the row's
+/// first cell relative to the box (the last one is 0), in C order. Nothing is called for an empty
+/// box.
 template <class Visit>
 void for_each_row(const std::vector<std::uint64_t>& extent, Visit&& visit) {
     for (const std::uint64_t size : extent) {

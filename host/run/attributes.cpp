@@ -52,7 +52,8 @@ scene scene_of(const map_reader& map, std::span<const model_entry* const> models
     const scene result =
         parse_scene(text, map.attribute("scene_file"), split(map.attribute("overrides")), models);
     if (result.fingerprint != map.attribute("fingerprint")) {
-        throw store_error("map", "this version reads its scene differently, the fingerprints differ",
+        throw store_error("map",
+                          "this version reads its scene differently, the fingerprints differ",
                           "the version in its attribute `source`");
     }
     return result;

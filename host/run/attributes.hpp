@@ -1,5 +1,5 @@
-// The global attributes that a map carries: all that is needed to know what it shows and to compute it
-// again. And the way back: the scene of a map on disk.
+// The global attributes that a map carries: all that is needed to know what it shows and to compute
+// it again. And the way back: the scene of a map on disk.
 #pragma once
 
 #include "host/map/layout.hpp"

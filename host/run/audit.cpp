@@ -3,6 +3,7 @@
 
 #include "host/map/numbers.hpp"
 #include "host/run/estimate.hpp"
+#include "host/run/stop_condition.hpp"
 #include "host/run/truth_orbits.hpp"
 #include "host/scene/grid.hpp"
 
@@ -82,6 +83,7 @@ audit_report audit(const scene& scene, const label_plan& plan, const tile_source
     const std::vector<int> stored = stored_values(scene, tiles, cells);
     std::vector<cell_verdict> verdicts(cells.size());
     tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
+        if (stop_condition::is_interrupted()) throw interruption();
         verdicts[i] = judge(scene, plan, cells[i], stored[i]);
     });
     audit_report report;
@@ -99,16 +101,16 @@ audit_report audit(const scene& scene, const label_plan& plan, const tile_source
 
 attribute_list attributes_of(const scene& scene, const audit_report& report,
                              const std::filesystem::path& map) {
-    attribute_list attributes{
-        {"audit_cells", fmt::format("{}", report.n_cells)},
-        {"audit_wrong", fmt::format("{}", report.n_wrong)},
-        {"audit_share", fmt::format("{:.17g}", report.share)},
-        {"audit_interval",
-         fmt::format("{:.17g} to {:.17g} (95 %, Wilson)", report.lowest, report.highest)},
-        {"audit_method", "dd, disputed cells mp50"}};
+    attribute_list attributes{{"audit_cells", fmt::format("{}", report.n_cells)},
+                              {"audit_wrong", fmt::format("{}", report.n_wrong)},
+                              {"audit_share", fmt::format("{:.17g}", report.share)},
+                              {"audit_interval", fmt::format("{:.17g} to {:.17g} (95 %, Wilson)",
+                                                             report.lowest, report.highest)},
+                              {"audit_method", "dd, disputed cells mp50"}};
     if (!report.wrong.empty()) {
-        attributes.emplace_back("audit_replay", fmt::format("hopscotch replay {} --cell {}", map.string(),
-                                                            cell_text(scene, report.wrong[0].cell)));
+        attributes.emplace_back("audit_replay",
+                                fmt::format("hopscotch replay {} --cell {}", map.string(),
+                                            cell_text(scene, report.wrong[0].cell)));
     }
     return attributes;
 }
@@ -119,7 +121,8 @@ std::pair<double, double> confidence_of(std::uint64_t hits, std::uint64_t n) {
     const auto total = static_cast<double>(n);
     const double share = static_cast<double>(hits) / total;
     const double centre = share + z * z / (2.0 * total);
-    const double width = z * std::sqrt(share * (1.0 - share) / total + z * z / (4.0 * total * total));
+    const double width =
+        z * std::sqrt(share * (1.0 - share) / total + z * z / (4.0 * total * total));
     const double scale = 1.0 + z * z / total;
     const double lowest = hits == 0 ? 0.0 : (centre - width) / scale;
     const double highest = hits == n ? 1.0 : (centre + width) / scale;

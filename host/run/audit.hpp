@@ -1,5 +1,5 @@
-// A map against higher precision: random cells are computed again in double-double, those that disagree
-// once more with 50 digits, which decide. Made at the end of every run and by `verify`.
+// A map against higher precision: random cells are computed again in double-double, those that
+// disagree once more with 50 digits, which decide. Made at the end of every run and by `verify`.
 #pragma once
 
 #include "host/map/layout.hpp"
@@ -27,8 +27,8 @@ struct audit_report {
     std::uint64_t n_cells = 0;
     std::vector<cell_verdict> wrong;
     std::uint64_t n_wrong = 0;
-    double share = 0.0;    // of wrong cells
-    double lowest = 0.0;   // its 95 % confidence interval (Wilson)
+    double share = 0.0;   // of wrong cells
+    double lowest = 0.0;  // its 95 % confidence interval (Wilson)
     double highest = 1.0;
 };
 
@@ -38,7 +38,8 @@ using tile_source = std::function<tile_data(std::uint64_t tile)>;
 /// One cell in higher precision.
 cell_verdict judge(const scene& scene, const label_plan& plan, std::uint64_t cell, int stored);
 
-/// Audits `n` random cells, in parallel. \error whatever `tiles` throws
+/// Audits `n` random cells, in parallel.
+/// \error interruption on a signal; whatever `tiles` throws
 audit_report audit(const scene& scene, const label_plan& plan, const tile_source& tiles,
                    std::uint64_t n, std::uint64_t seed = 1);
 

@@ -38,10 +38,14 @@ std::string reason_against(const model_entry& model, backend which) {
 
 std::string reason_against(backend which) {
     switch (which) {
-        case backend::scalar: return "";
-        case backend::avx2: return runs_avx2() ? "" : "this processor has no AVX2";
-        case backend::avx512: return runs_avx512() ? "" : "this processor has no AVX-512";
-        case backend::cuda: return reason_against_gpu();
+        case backend::scalar:
+            return "";
+        case backend::avx2:
+            return runs_avx2() ? "" : "this processor has no AVX2";
+        case backend::avx512:
+            return runs_avx512() ? "" : "this processor has no AVX-512";
+        case backend::cuda:
+            return reason_against_gpu();
     }
     return "no such backend";
 }
@@ -56,8 +60,8 @@ kernel_choice choose_kernel(const model_entry& model, int variant, std::string_v
             throw device_error(fmt::format("--backend {} ({}); --backend auto?", wanted, reason));
         }
     }
-    throw device_error(fmt::format("--backend {} (no kernel of {} for it); auto?", wanted,
-                                   model.info->name));
+    throw device_error(
+        fmt::format("--backend {} (no kernel of {} for it); auto?", wanted, model.info->name));
 }
 
 }  // namespace hopscotch

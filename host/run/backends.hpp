@@ -1,5 +1,6 @@
-// Which kernel computes a map: the backend by name or the best one this processor runs, the compile-time
-// variant by the model's own choice. The only place that asks the processor what it can do.
+// Which kernel computes a map: the backend by name or the best one this processor runs, the
+// compile-time variant by the model's own choice. The only place that asks the processor what it
+// can do.
 #pragma once
 
 #include "host/run/device_error.hpp"
@@ -27,9 +28,9 @@ struct kernel_choice {
 /// Why this machine cannot run the backend, or "".
 std::string reason_against(backend which);
 
-/// The backend of that name; `auto` is the widest one that this processor runs and the model is built
-/// for (never the GPU: it is asked for by name).
-/// \error device_error naming what is missing and what can be had instead
+/// The backend of that name; `auto` is the widest one that this processor runs and the model is
+/// built for (never the GPU: it is asked for by name). \error device_error naming what is missing
+/// and what can be had instead
 kernel_choice choose_kernel(const model_entry& model, int variant, std::string_view wanted);
 
 }  // namespace hopscotch

@@ -44,7 +44,8 @@ sample_timing time_cells(const scene& scene, const label_plan& plan, const kerne
 }
 
 /// Larger and larger samples until the time is worth extrapolating.
-sample_timing time_samples(const scene& scene, const label_plan& plan, const kernel_choice& kernel) {
+sample_timing time_samples(const scene& scene, const label_plan& plan,
+                           const kernel_choice& kernel) {
     constexpr double enough_seconds = 0.3;
     constexpr std::uint64_t enough_cells = 16384;
     sample_timing timing;
@@ -57,7 +58,8 @@ sample_timing time_samples(const scene& scene, const label_plan& plan, const ker
 
 }  // namespace
 
-std::vector<std::uint64_t> sample_cells(std::uint64_t n_cells, std::uint64_t n, std::uint64_t seed) {
+std::vector<std::uint64_t> sample_cells(std::uint64_t n_cells, std::uint64_t n,
+                                        std::uint64_t seed) {
     std::vector<std::uint64_t> cells;
     if (n >= n_cells) {
         cells.resize(n_cells);
@@ -89,7 +91,8 @@ run_estimate estimate(const scene& scene, const run_choices& choices, const run_
     for (const std::uint64_t extent : layout.tile) tile_cells *= extent;
     result.bytes = bytes_per_cell * result.n_cells;
     // a tile in flight: its numbers, their compressed copy, and a table of parameter points
-    const std::uint64_t tokens = std::min(2 * static_cast<std::uint64_t>(result.n_threads), result.n_tiles);
+    const std::uint64_t tokens =
+        std::min(2 * static_cast<std::uint64_t>(result.n_threads), result.n_tiles);
     result.memory = tokens * tile_cells * (2 * bytes_per_cell + sizeof(double));
 
     label_plan plan;
@@ -98,7 +101,8 @@ run_estimate estimate(const scene& scene, const run_choices& choices, const run_
     const auto sampled = static_cast<double>(timing.cells);
     result.n_sampled = timing.cells;
     result.undecided = static_cast<double>(timing.undecided) / sampled;
-    result.seconds = timing.seconds / sampled * static_cast<double>(result.n_cells) / result.n_threads;
+    result.seconds =
+        timing.seconds / sampled * static_cast<double>(result.n_cells) / result.n_threads;
     return result;
 }
 

@@ -22,7 +22,8 @@ std::string json_text(std::string_view text) {
 
 std::string json_texts(const std::vector<std::string>& texts) {
     std::string result = "[";
-    for (const std::string& text : texts) result += (result.size() > 1 ? ", " : "") + json_text(text);
+    for (const std::string& text : texts)
+        result += (result.size() > 1 ? ", " : "") + json_text(text);
     return result + "]";
 }
 

@@ -39,10 +39,10 @@ std::string progress_line::line(const run_tally& tally, double seconds) const {
     const double rate = here / std::max(seconds, 1e-9);
     const std::uint64_t done = done_ + tally.cells;
     const double left = static_cast<double>(total_ - done) / rate;
-    return fmt::format("{:5.1f} %  {:.3g} cells/s  {} left  {:.2g} % undecided  lanes {:.0f} % full",
-                       100.0 * static_cast<double>(done) / static_cast<double>(total_), rate,
-                       clock_text(left), 100.0 * static_cast<double>(tally.undecided) / here,
-                       100.0 * tally.lanes.efficiency());
+    return fmt::format(
+        "{:5.1f} %  {:.3g} cells/s  {} left  {:.2g} % undecided  lanes {:.0f} % full",
+        100.0 * static_cast<double>(done) / static_cast<double>(total_), rate, clock_text(left),
+        100.0 * static_cast<double>(tally.undecided) / here, 100.0 * tally.lanes.efficiency());
 }
 
 std::string clock_text(double seconds) {

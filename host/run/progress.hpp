@@ -1,5 +1,6 @@
-// The line that says how far a run is: share done, cells per second, time left, share undecided, how full
-// the lanes are. On a terminal it is rewritten in place, elsewhere a new line comes every ten seconds.
+// The line that says how far a run is: share done, cells per second, time left, share undecided,
+// how full the lanes are. On a terminal it is rewritten in place, elsewhere a new line comes every
+// ten seconds.
 #pragma once
 
 #include "kernels/ensemble/request.hpp"
@@ -18,7 +19,7 @@ struct run_tally {
 };
 
 class progress_line {
-  public:
+public:
     /// \param total  cells of the map
     /// \param done   cells that an earlier run has finished
     progress_line(std::uint64_t total, std::uint64_t done, bool is_quiet);
@@ -29,7 +30,7 @@ class progress_line {
     /// From the one writing thread, after every tile.
     void show(const run_tally& tally);
 
-  private:
+private:
     std::string line(const run_tally& tally, double seconds) const;
 
     std::uint64_t total_;

@@ -1,5 +1,6 @@
-// From a scene and a rectangle of its cells (or a list of single cells) to the plain request that kernels
-// understand. The tables are borrowed from scene, plan and layout, which must outlive the request.
+// From a scene and a rectangle of its cells (or a list of single cells) to the plain request that
+// kernels understand. The tables are borrowed from scene, plan and layout, which must outlive the
+// request.
 #pragma once
 
 #include "host/map/layout.hpp"

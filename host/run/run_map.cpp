@@ -9,6 +9,7 @@
 #include "host/scene/questions.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -23,9 +24,10 @@ struct finished_tile {
     lane_statistics lanes;
 };
 
-/// Compute and compress in parallel, write one at a time; no more than two tiles per thread in flight.
+/// Compute and compress in parallel, write one at a time; no more than two tiles per thread in
+/// flight.
 class tile_pipeline {
-  public:
+public:
     tile_pipeline(const tile_job& job, map_run& run, const stop_condition& stop, int n_threads,
                   bool is_quiet)
         : job_(job),
@@ -37,14 +39,14 @@ class tile_pipeline {
 
     run_tally compute() {
         const auto n_threads = static_cast<std::size_t>(n_threads_);
-        tbb::global_control threads(tbb::global_control::max_allowed_parallelism, n_threads);
         tbb::task_arena arena(n_threads_);
         arena.execute([&] {
             using tbb::filter_mode;
             tbb::parallel_pipeline(
                 2 * n_threads,
                 tbb::make_filter<void, std::uint64_t>(
-                    filter_mode::serial_in_order, [&](tbb::flow_control& flow) { return next(flow); }) &
+                    filter_mode::serial_in_order,
+                    [&](tbb::flow_control& flow) { return next(flow); }) &
                     tbb::make_filter<std::uint64_t, finished_tile>(
                         filter_mode::parallel, [&](std::uint64_t tile) { return finish(tile); }) &
                     tbb::make_filter<finished_tile, void>(
@@ -54,7 +56,7 @@ class tile_pipeline {
         return tally_;
     }
 
-  private:
+private:
     std::uint64_t cells_done() const {
         std::uint64_t missing = 0;
         for (const std::uint64_t tile : missing_) missing += box_of(job_.layout, tile).n_cells();
@@ -116,8 +118,7 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
     set_shares(report.attractors, report.labels, report.n_cells);
     if (hooks.audit && scene.accuracy.audit_cells > 0) report.audit = hooks.audit(scene, plan, run);
     report.hash = run.hash();
-    attribute_list attributes = report.audit;
-    run.finish({attributes, report.attractors, plan.point_columns});
+    run.finish({report.audit, report.attractors, plan.point_columns});
     report.is_finished = true;
 }
 
@@ -146,11 +147,18 @@ run_report run_map(const scene& scene, const run_choices& choices, const run_hoo
     const std::vector<layer_plan> layers = chosen_layers(scene);
     const tile_job job{scene, plan, layout, layers, kernel};
     const double begin = stop.elapsed();
-    report.tally =
-        tile_pipeline(job, run, stop, threads_for(choices.n_threads), choices.is_quiet).compute();
+    const int n_threads = threads_for(choices.n_threads);
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(n_threads));
+    report.tally = tile_pipeline(job, run, stop, n_threads, choices.is_quiet).compute();
     report.seconds = stop.elapsed() - begin;
     report.n_missing = run.missing_tiles().size();
-    if (report.n_missing == 0) finish_map(scene, plan, hooks, run, report);
+    if (report.n_missing > 0) return report;
+    try {
+        finish_map(scene, plan, hooks, run, report);
+    } catch (const interruption&) {
+        report.is_finished = false;  // all tiles are there: a resumed run only audits and packs
+    }
     return report;
 }
 
@@ -160,22 +168,25 @@ bool is_undecided(const scene& scene, int outcome_code) {
     switch (static_cast<outcome>(outcome_code)) {
         case outcome::budget:
         case outcome::not_finite:
-        case outcome::unresolved_event: return true;
-        case outcome::ok: return scene.question.has_labels;
-        default: return false;
+        case outcome::unresolved_event:
+            return true;
+        case outcome::ok:
+            return scene.question.has_labels;
+        default:
+            return false;
     }
 }
 
 void check_is_map(const scene& scene) {
     const question_kind* kind = find_question(scene.question.kind);
     if (!kind->is_map) {
-        throw scene_error({scene.file, "question.kind", "\"" + scene.question.kind + "\"",
+        throw scene_error({scene.question.place, "question.kind", "\"" + scene.question.kind + "\"",
                            "not computed as a map in this version", "\"basins\""});
     }
     if (scene.accuracy.precision != "double") {
-        throw scene_error({scene.file, "accuracy.precision", "\"" + scene.accuracy.precision + "\"",
-                           "maps are computed in double and audited in higher precision",
-                           "\"double\""});
+        throw scene_error(
+            {scene.accuracy.place, "accuracy.precision", "\"" + scene.accuracy.precision + "\"",
+             "maps are computed in double and audited in higher precision", "\"double\""});
     }
 }
 

@@ -1,5 +1,6 @@
-// Computes a scene's map from beginning to end: plan the labels, compute the missing tiles in parallel,
-// write them one by one, audit, pack. Reads like the data flow; used by the command `run` and by tests.
+// Computes a scene's map from beginning to end: plan the labels, compute the missing tiles in
+// parallel, write them one by one, audit, pack. Reads like the data flow; used by the command `run`
+// and by tests.
 #pragma once
 
 #include "host/run/label_plan.hpp"
@@ -15,9 +16,9 @@
 namespace hopscotch {
 
 struct run_choices {
-    std::filesystem::path file;     // empty: the scene's
+    std::filesystem::path file;  // empty: the scene's
     std::string backend = "auto";
-    int n_threads = 0;              // 0: as many as the machine has
+    int n_threads = 0;  // 0: as many as the machine has
     if_exists existing = if_exists::refuse;
     std::optional<double> walltime;  // seconds
     bool is_quiet = false;
@@ -47,7 +48,8 @@ struct run_report {
     std::vector<std::string> notes;
 };
 
-/// \error scene_error (a question that is no map), store_error, device_error; finished tiles always stay
+/// \error scene_error (a question that is no map), store_error, device_error; finished tiles always
+/// stay
 run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks);
 
 /// Number of threads for a choice of 0 or more.

@@ -27,7 +27,7 @@ stop_condition::~stop_condition() {
     std::signal(SIGTERM, SIG_DFL);
 }
 
-bool stop_condition::is_interrupted() const { return has_signal != 0; }
+bool stop_condition::is_interrupted() { return has_signal != 0; }
 
 bool stop_condition::is_due(double seconds) const {
     if (is_interrupted()) return true;

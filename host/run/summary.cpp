@@ -49,17 +49,17 @@ void append_shares(std::string& text, std::string_view title, const std::vector<
     if (rows.empty()) return;
     text += fmt::format("{}\n", title);
     for (const share_row& row : rows) {
-        text += fmt::format("  {:>4}  {:<24} {:>22.17g}  ({} cells)\n", row.value, row.name, row.share,
-                            row.cells);
+        text += fmt::format("  {:>4}  {:<24} {:>22.17g}  ({} cells)\n", row.value, row.name,
+                            row.share, row.cells);
     }
 }
 
 std::string json_shares(const std::vector<share_row>& rows) {
     std::string text = "[";
     for (const share_row& row : rows) {
-        text += fmt::format("{}\n    {{\"value\": {}, \"name\": {}, \"cells\": {}, \"share\": {:.17g}}}",
-                            text.size() > 1 ? "," : "", row.value, json_text(row.name), row.cells,
-                            row.share);
+        text += fmt::format(
+            "{}\n    {{\"value\": {}, \"name\": {}, \"cells\": {}, \"share\": {:.17g}}}",
+            text.size() > 1 ? "," : "", row.value, json_text(row.name), row.cells, row.share);
     }
     return text + (rows.empty() ? "]" : "\n  ]");
 }
@@ -67,7 +67,8 @@ std::string json_shares(const std::vector<share_row>& rows) {
 std::string json_attributes(const attribute_list& attributes) {
     std::string text = "{";
     for (const auto& [name, value] : attributes) {
-        text += fmt::format("{}\n    {}: {}", text.size() > 1 ? "," : "", json_text(name), json_text(value));
+        text += fmt::format("{}\n    {}: {}", text.size() > 1 ? "," : "", json_text(name),
+                            json_text(value));
     }
     return text + (attributes.empty() ? "}" : "\n  }");
 }
@@ -139,7 +140,8 @@ std::string bytes_text(std::uint64_t bytes) {
         amount /= 1024.0;
         ++unit;
     }
-    return unit == 0 ? fmt::format("{} bytes", bytes) : fmt::format("{:.2f} {}", amount, units[unit]);
+    return unit == 0 ? fmt::format("{} bytes", bytes)
+                     : fmt::format("{:.2f} {}", amount, units[unit]);
 }
 
 }  // namespace hopscotch

@@ -18,14 +18,29 @@ Number* numbers(std::vector<std::byte>& buffer) {
 /// Points the kernel's result to the layer's buffer. The period is no result: it follows the label.
 void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::byte>& buffer) {
     switch (layer.role) {
-        case layer_role::label: request.label = numbers<std::int16_t>(buffer); break;
-        case layer_role::outcome: request.outcome = numbers<std::uint8_t>(buffer); break;
-        case layer_role::returns: request.returns = numbers<std::uint32_t>(buffer); break;
-        case layer_role::events: request.events = numbers<std::uint32_t>(buffer); break;
-        case layer_role::time: request.time = numbers<double>(buffer); break;
-        case layer_role::state: request.state[layer.index] = numbers<double>(buffer); break;
-        case layer_role::extra: request.extras[layer.index] = numbers<double>(buffer); break;
-        case layer_role::period: break;
+        case layer_role::label:
+            request.label = numbers<std::int16_t>(buffer);
+            break;
+        case layer_role::outcome:
+            request.outcome = numbers<std::uint8_t>(buffer);
+            break;
+        case layer_role::returns:
+            request.returns = numbers<std::uint32_t>(buffer);
+            break;
+        case layer_role::events:
+            request.events = numbers<std::uint32_t>(buffer);
+            break;
+        case layer_role::time:
+            request.time = numbers<double>(buffer);
+            break;
+        case layer_role::state:
+            request.state[layer.index] = numbers<double>(buffer);
+            break;
+        case layer_role::extra:
+            request.extras[layer.index] = numbers<double>(buffer);
+            break;
+        case layer_role::period:
+            break;
     }
 }
 
@@ -39,7 +54,8 @@ std::int16_t period_of(const label_plan& plan, std::int16_t label) {
 void fill_periods(const label_plan& plan, const std::int16_t* label, std::uint64_t n_cells,
                   std::vector<std::byte>& buffer) {
     std::int16_t* period = numbers<std::int16_t>(buffer);
-    for (std::uint64_t cell = 0; cell < n_cells; ++cell) period[cell] = period_of(plan, label[cell]);
+    for (std::uint64_t cell = 0; cell < n_cells; ++cell)
+        period[cell] = period_of(plan, label[cell]);
 }
 
 /// State layers of cells without a state say so: NaN.

@@ -49,22 +49,29 @@ owned_row row_of(const scene& scene, const label_plan& plan,
 
 std::string_view name_of(precision value) {
     switch (value) {
-        case precision::binary64: return "double";
-        case precision::dd: return "dd";
-        case precision::mp50: return "mp50";
+        case precision::binary64:
+            return "double";
+        case precision::dd:
+            return "dd";
+        case precision::mp50:
+            return "mp50";
     }
     return "";
 }
 
 orbit_answer run_orbit(const model_entry& model, precision value, const orbit_row& row) {
     if (model.orbits_table == nullptr) {
-        throw std::invalid_argument(fmt::format("{} is built without single orbits", model.info->name));
+        throw std::invalid_argument(
+            fmt::format("{} is built without single orbits", model.info->name));
     }
     const orbit_functions& orbits = model.orbits();
     switch (value) {
-        case precision::binary64: return orbits.run_double(row);
-        case precision::dd: return orbits.run_dd(row);
-        case precision::mp50: return orbits.run_mp50(row);
+        case precision::binary64:
+            return orbits.run_double(row);
+        case precision::dd:
+            return orbits.run_dd(row);
+        case precision::mp50:
+            return orbits.run_mp50(row);
     }
     return {};
 }

@@ -1,5 +1,5 @@
-// Single cells of a map in higher precision: the start as exact decimals, the traps of its parameter
-// point, one orbit. The counterpart of requests.hpp for `verify`, `replay` and the audit.
+// Single cells of a map in higher precision: the start as exact decimals, the traps of its
+// parameter point, one orbit. The counterpart of requests.hpp for `verify`, `replay` and the audit.
 #pragma once
 
 #include "analysis/orbit/orbit_functions.hpp"

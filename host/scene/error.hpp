@@ -19,7 +19,7 @@ struct mistake {
 };
 
 class scene_error : public std::runtime_error {
-  public:
+public:
     explicit scene_error(const mistake& what) : std::runtime_error(what.line()) {}
 };
 

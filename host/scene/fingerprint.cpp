@@ -1,6 +1,7 @@
-// One number for everything that decides a map's numbers: tiles of an interrupted run are taken up again
-// only under the same fingerprint. File name, compression, tile shape, layers, titles and the audit
-// leave every number as it is and do not enter (the store compares tiles and layers by itself).
+// One number for everything that decides a map's numbers: tiles of an interrupted run are taken up
+// again only under the same fingerprint. File name, compression, tile shape, layers, titles and the
+// audit leave every number as it is and do not enter (the store compares tiles and layers by
+// itself).
 #include "host/scene/readers.hpp"
 
 #include <fmt/format.h>
@@ -13,8 +14,7 @@ __extension__ using word128 = unsigned __int128;
 /// FNV-1a over 128 bits: short, and the same on every machine.
 std::string hash_of(std::string_view text) {
     constexpr word128 prime = (static_cast<word128>(1) << 88) + 0x13b;
-    word128 hash = (static_cast<word128>(0x6c62272e07bb0142u) << 64) +
-                             0x62b821756295c58du;
+    word128 hash = (static_cast<word128>(0x6c62272e07bb0142u) << 64) + 0x62b821756295c58du;
     for (const char letter : text) {
         hash ^= static_cast<unsigned char>(letter);
         hash *= prime;

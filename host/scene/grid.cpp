@@ -18,7 +18,8 @@ double value_of(const scene_axis& axis, std::uint64_t cell) {
     const long double high = axis.highest;
     if (axis.scale == axis_scale::linear) {
         // both terms rather than low + width * t: exact in the middle and free of overflow
-        return static_cast<double>((low * (denominator - numerator) + high * numerator) / denominator);
+        return static_cast<double>((low * (denominator - numerator) + high * numerator) /
+                                   denominator);
     }
     const long double t = numerator / denominator;
     return static_cast<double>(std::exp(std::log(low) * (1.0L - t) + std::log(high) * t));

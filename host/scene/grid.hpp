@@ -8,8 +8,8 @@
 
 namespace hopscotch {
 
-/// Where the cells of an axis are sampled: cell centres, or with `edges` from end to end; evenly spaced
-/// in value or in logarithm. Computed in extended precision and rounded once.
+/// Where the cells of an axis are sampled: cell centres, or with `edges` from end to end; evenly
+/// spaced in value or in logarithm. Computed in extended precision and rounded once.
 std::vector<double> values_of(const scene_axis& axis);
 
 /// Sample value of one cell of the axis.

@@ -19,14 +19,16 @@ std::vector<std::pair<int, std::string>> outcome_flags() {
 
 layer_plan plan(layer_role role, std::string name, number_type type, std::string unit,
                 std::string meaning, double fill, int index = 0) {
-    return {{std::move(name), type, std::move(unit), std::move(meaning), fill, {}}, role, index, ""};
+    return {
+        {std::move(name), type, std::move(unit), std::move(meaning), fill, {}}, role, index, ""};
 }
 
 layer_plan state_plan(const scene& scene, int index) {
     const column_info& column = scene.end_section().columns[static_cast<std::size_t>(index)];
     const std::string name(column.name);
-    layer_plan result = plan(layer_role::state, name, number_type::float64, std::string(column.unit),
-                             std::string(column.meaning) + ", after the last return", nan, index);
+    layer_plan result =
+        plan(layer_role::state, name, number_type::float64, std::string(column.unit),
+             std::string(column.meaning) + ", after the last return", nan, index);
     const bool is_axis = std::any_of(scene.axes.begin(), scene.axes.end(),
                                      [&](const scene_axis& axis) { return axis.name == name; });
     if (is_axis) {
@@ -55,7 +57,8 @@ std::vector<layer_plan> available_layers(const scene& scene) {
     layers.push_back(plan(layer_role::events, "events", number_type::uint32, "1",
                           "resets and mode changes", no_count));
     layers.push_back(plan(layer_role::time, "time", number_type::float64,
-                          std::string(scene.info().time_unit), "time from the start to the end", nan));
+                          std::string(scene.info().time_unit), "time from the start to the end",
+                          nan));
     const int n_columns = static_cast<int>(scene.end_section().columns.size());
     for (int index = 0; index < n_columns; ++index) layers.push_back(state_plan(scene, index));
     int index = 0;

@@ -12,13 +12,22 @@
 namespace hopscotch {
 
 /// What a layer shows, and so which result of the kernel fills it.
-enum class layer_role : std::uint8_t { label, outcome, returns, events, time, period, state, extra };
+enum class layer_role : std::uint8_t {
+    label,
+    outcome,
+    returns,
+    events,
+    time,
+    period,
+    state,
+    extra
+};
 
 struct layer_plan {
     layer description;
     layer_role role = layer_role::outcome;
-    int index = 0;         // of the state column or extra
-    std::string alias;     // the column's own name where the dataset's had to differ from an axis
+    int index = 0;      // of the state column or extra
+    std::string alias;  // the column's own name where the dataset's had to differ from an axis
 };
 
 /// Every layer that this scene can store.

@@ -41,8 +41,10 @@ setting parse_value(const std::string& text) {
     try {
         const document parsed = parse_document("value = " + text + "\n", command_line);
         const auto& table = std::get<setting::table>(parsed.root.value);
-        if (table.size() == 1) result = table.begin()->second;
-        else result.value = text;
+        if (table.size() == 1)
+            result = table.begin()->second;
+        else
+            result.value = text;
     } catch (const scene_error&) {
         result.value = text;  // a bare word, as the shell leaves it
     }

@@ -57,7 +57,7 @@ document parse_document(std::string text, std::string file) {
 
 document load_document(const std::filesystem::path& file) {
     std::error_code failure;
-    if (!std::filesystem::is_regular_file(file, failure)) {
+    if (!std::filesystem::exists(file, failure) || std::filesystem::is_directory(file, failure)) {
         throw scene_error({file.string(), "scene", "", "no such file", ""});
     }
     std::ifstream stream(file, std::ios::binary);

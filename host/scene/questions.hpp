@@ -18,8 +18,8 @@ struct question_number {
 struct question_kind {
     std::string_view name;
     std::string_view meaning;
-    bool has_labels;                  // orbits run until a certificate or trap labels them
-    bool is_map;                      // `run` computes it; else another command answers it
+    bool has_labels;  // orbits run until a certificate or trap labels them
+    bool is_map;      // `run` computes it; else another command answers it
     std::uint32_t standard_returns;
     std::span<const question_number> numbers;
     std::span<const std::string_view> standard_layers;  // "state" stands for all state columns

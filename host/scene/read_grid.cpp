@@ -43,8 +43,9 @@ void read_axis_name(const scene& scene, const table_reader& table, scene_axis& a
     axis.kind = axis_kind::parameter;
     axis.index = index_of(scene.info().parameters, *name);
     if (axis.index < 0) {
-        table.refuse("name", fmt::format("no state column of section {} and no parameter of {}",
-                                         scene.start_section().name, scene.info().name),
+        table.refuse("name",
+                     fmt::format("no state column of section {} and no parameter of {}",
+                                 scene.start_section().name, scene.info().name),
                      suggest(*name, known));
     }
     if (scene.is_given[static_cast<std::size_t>(axis.index)]) {
@@ -63,14 +64,16 @@ double read_end(const table_reader& table, std::string_view key) {
 void read_extent(const table_reader& table, scene_axis& axis, bool edges) {
     if (!table.has("cells")) table.missing("cells", "how many cells the axis has", "cells = 512");
     if (table.number("cells") == 0.0) {
-        table.refuse("cells", "an axis needs at least one cell", "remove the axis to fix its value");
+        table.refuse("cells", "an axis needs at least one cell",
+                     "remove the axis to fix its value");
     }
     axis.cells = static_cast<std::uint64_t>(*table.whole("cells", 1, most_cells_along));
     axis.lowest = read_end(table, "min");
     axis.highest = read_end(table, "max");
     if (!(axis.lowest < axis.highest)) {
         table.refuse("max", fmt::format("not above min = {}", axis.lowest),
-                     axis.lowest > axis.highest ? "exchange min and max" : "remove the axis to fix its value");
+                     axis.lowest > axis.highest ? "exchange min and max"
+                                                : "remove the axis to fix its value");
     }
     axis.edges = table.flag("edges").value_or(edges);
     if (axis.edges && axis.cells < 2) {
@@ -81,8 +84,10 @@ void read_extent(const table_reader& table, scene_axis& axis, bool edges) {
 void read_scale(const table_reader& table, scene_axis& axis) {
     constexpr std::array<std::string_view, 2> scales{"linear", "log"};
     const std::string scale = table.text("scale").value_or("linear");
-    if (scale == "log") axis.scale = axis_scale::log;
-    else if (scale != "linear") table.refuse("scale", "no such scale", suggest(scale, scales));
+    if (scale == "log")
+        axis.scale = axis_scale::log;
+    else if (scale != "linear")
+        table.refuse("scale", "no such scale", suggest(scale, scales));
     if (axis.scale == axis_scale::log && axis.lowest <= 0.0) {
         table.refuse("min", "a logarithmic axis begins above zero", "scale = \"linear\"");
     }
@@ -111,10 +116,12 @@ void check_range(const scene& scene, const table_reader& table, const scene_axis
 }
 
 void check_resolution(const table_reader& table, const scene_axis& axis) {
-    // neighbours are closest at the end of largest magnitude of a linear axis, at the low end of a log one
+    // neighbours are closest at the end of largest magnitude of a linear axis, at the low end of a
+    // log one
     for (const std::uint64_t cell : {std::uint64_t{1}, axis.cells - 1}) {
         if (axis.cells < 2 || value_of(axis, cell - 1) < value_of(axis, cell)) continue;
-        table.refuse("cells", "more cells than distinct numbers between min and max", "fewer cells");
+        table.refuse("cells", "more cells than distinct numbers between min and max",
+                     "fewer cells");
     }
 }
 
@@ -166,8 +173,9 @@ void read_start(scene& scene, const table_reader& root) {
         if (value && is_axis[index]) table.refuse(name, "an axis as well", "remove one of them");
         if (is_axis[index]) continue;
         if (!value) {
-            table.missing(name, fmt::format("state column of section {}, neither axis nor start",
-                                            scene.start_section().name),
+            table.missing(name,
+                          fmt::format("state column of section {}, neither axis nor start",
+                                      scene.start_section().name),
                           fmt::format("[start] {} = 0.0", name));
         }
         if (!columns[index].valid.holds(*value)) {

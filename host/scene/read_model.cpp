@@ -66,8 +66,9 @@ void read_options(scene& scene, const table_reader& table) {
     }
     for (std::size_t index = 0; index < parameters.size(); ++index) {
         if (!scene.is_given[index]) continue;
-        root.table("model").table("parameters").refuse(scene.info().parameters[index].name,
-                                                       std::string(why));
+        root.table("model")
+            .table("parameters")
+            .refuse(scene.info().parameters[index].name, std::string(why));
     }
     root.table("model").refuse("name", std::string(why));
 }
@@ -87,7 +88,8 @@ void check_refusals(const scene& scene, const table_reader& root) {
     const parameter_extremes extremes = extremes_of(scene);
     std::vector<std::size_t> moving;
     for (const scene_axis& axis : scene.axes) {
-        if (axis.kind == axis_kind::parameter) moving.push_back(static_cast<std::size_t>(axis.index));
+        if (axis.kind == axis_kind::parameter)
+            moving.push_back(static_cast<std::size_t>(axis.index));
     }
     const std::size_t n_corners = std::size_t{1} << moving.size();
     for (std::size_t corner = 0; corner < n_corners; ++corner) {

@@ -97,8 +97,9 @@ void read_layers(scene& scene, const table_reader& table) {
         if (found == nullptr) {
             const std::string near = closest(name, known);
             const std::string all = "one of " + listed(known);
-            table.refuse("layers", fmt::format("no layer \"{}\" for the question {} on {}", name,
-                                               scene.question.kind, scene.info().name),
+            table.refuse("layers",
+                         fmt::format("no layer \"{}\" for the question {} on {}", name,
+                                     scene.question.kind, scene.info().name),
                          near.empty() ? all : fmt::format("\"{}\", {}", near, all));
         }
         add_layer(layers, found->description.name);
@@ -116,8 +117,8 @@ void read_output(scene& scene, const table_reader& root) {
     const std::string file = table.text("file").value_or((stem.empty() ? "map" : stem) + ".h5");
     if (file.empty()) table.refuse("file", "an empty file name", stem + ".h5");
     scene.output.file = file;
-    scene.output.compression = static_cast<int>(
-        table.whole("compression", 0, 9).value_or(scene.output.compression));
+    scene.output.compression =
+        static_cast<int>(table.whole("compression", 0, 9).value_or(scene.output.compression));
     read_tile(scene, table);
     read_layers(scene, table);
 }

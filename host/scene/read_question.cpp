@@ -40,6 +40,7 @@ void read_question(scene& scene, const table_reader& root) {
     std::vector<std::string_view> known = names_of(kind.numbers);
     known.insert(known.end(), {"kind", "returns"});
     table.expect_keys(known, fmt::format("key of the question {}", kind.name));
+    scene.question.place = table.place("kind");
     scene.question.kind = kind.name;
     scene.question.has_labels = kind.has_labels;
     scene.question.returns = static_cast<std::uint32_t>(
@@ -52,20 +53,21 @@ void read_accuracy(scene& scene, const table_reader& root) {
     const table_reader table = root.table("accuracy");
     table.expect_keys({"precision", "audit_cells", "tolerance", "max_events"});
     scene_accuracy& accuracy = scene.accuracy;
+    accuracy.place = table.place("precision");
     accuracy.precision = table.text("precision").value_or(accuracy.precision);
     if (std::find(precisions.begin(), precisions.end(), accuracy.precision) == precisions.end()) {
         table.refuse("precision", "no such precision", suggest(accuracy.precision, precisions));
     }
-    accuracy.audit_cells = static_cast<std::uint64_t>(
-        table.whole("audit_cells", 0, 1'000'000'000).value_or(
-            static_cast<std::int64_t>(accuracy.audit_cells)));
+    accuracy.audit_cells =
+        static_cast<std::uint64_t>(table.whole("audit_cells", 0, 1'000'000'000)
+                                       .value_or(static_cast<std::int64_t>(accuracy.audit_cells)));
     accuracy.tolerance = table.number("tolerance").value_or(accuracy.tolerance);
     if (!(accuracy.tolerance > 0.0 && accuracy.tolerance < 1.0)) {
         table.refuse("tolerance", "outside (0, 1)", "1e-10");
     }
-    accuracy.max_events = static_cast<std::uint64_t>(
-        table.whole("max_events", 1, 1'000'000'000'000).value_or(
-            static_cast<std::int64_t>(accuracy.max_events)));
+    accuracy.max_events =
+        static_cast<std::uint64_t>(table.whole("max_events", 1, 1'000'000'000'000)
+                                       .value_or(static_cast<std::int64_t>(accuracy.max_events)));
 }
 
 }  // namespace hopscotch

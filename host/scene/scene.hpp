@@ -1,5 +1,6 @@
-// A scene: model + parameters + grid + question + accuracy, read from one TOML file and checked. What
-// leaves `read_scene` is complete and consistent; it is passed on as `const scene&` and never changed.
+// A scene: model + parameters + grid + question + accuracy, read from one TOML file and checked.
+// What leaves `read_scene` is complete and consistent; it is passed on as `const scene&` and never
+// changed.
 #pragma once
 
 #include "host/scene/error.hpp"
@@ -18,7 +19,8 @@ namespace hopscotch {
 enum class axis_kind : std::uint8_t { column, parameter };
 enum class axis_scale : std::uint8_t { linear, log };
 
-/// What is left of a grid axis when it is checked; `values_of` (host/scene/grid.hpp) gives its cells.
+/// What is left of a grid axis when it is checked; `values_of` (host/scene/grid.hpp) gives its
+/// cells.
 struct scene_axis {
     std::string name;
     axis_kind kind = axis_kind::column;
@@ -32,6 +34,7 @@ struct scene_axis {
 
 /// What the map shows. `numbers` holds what only some kinds know (see host/scene/questions.hpp).
 struct scene_question {
+    std::string place;  // where the scene asks it, for messages
     std::string kind;
     std::uint32_t returns = 1;
     std::map<std::string, double, std::less<>> numbers;
@@ -41,9 +44,10 @@ struct scene_question {
 };
 
 struct scene_accuracy {
+    std::string place;  // where the precision is set, for messages
     std::string precision = "double";
     std::uint64_t audit_cells = 1000;
-    double tolerance = 1e-10;        // only where a flow is integrated
+    double tolerance = 1e-10;           // only where a flow is integrated
     std::uint64_t max_events = 100000;  // steps of work per return before the outcome `budget`
 };
 
@@ -68,8 +72,8 @@ struct scene {
     std::vector<bool> is_given;      // parameters the scene sets (not the axes)
     std::vector<int> options;        // index of the choice, one per option
     int section = 0;
-    std::vector<scene_axis> axes;    // the first one is the slowest in memory
-    std::vector<double> start;       // one per column of the section; NaN where the column is an axis
+    std::vector<scene_axis> axes;  // the first one is the slowest in memory
+    std::vector<double> start;     // one per column of the section; NaN where the column is an axis
 
     scene_question question;
     scene_accuracy accuracy;

@@ -15,8 +15,8 @@ int edit_distance(std::string_view one, std::string_view other) {
         for (std::size_t j = 1; j <= other.size(); ++j) {
             const int replaced = at(i - 1, j - 1) + (one[i - 1] == other[j - 1] ? 0 : 1);
             at(i, j) = std::min({at(i - 1, j) + 1, at(i, j - 1) + 1, replaced});
-            const bool is_swap = i > 1 && j > 1 && one[i - 1] == other[j - 2] &&
-                                 one[i - 2] == other[j - 1];
+            const bool is_swap =
+                i > 1 && j > 1 && one[i - 1] == other[j - 2] && one[i - 2] == other[j - 1];
             if (is_swap) at(i, j) = std::min(at(i, j), at(i - 2, j - 2) + 1);
         }
     }

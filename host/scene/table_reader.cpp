@@ -66,6 +66,11 @@ std::vector<std::string> table_reader::keys() const {
     return names;
 }
 
+std::string table_reader::place(std::string_view key) const {
+    const setting* found = entry(key);
+    return scene_->place(found == nullptr ? line_ : found->line);
+}
+
 std::optional<std::string> table_reader::text(std::string_view key) const {
     const setting* found = entry(key);
     if (found == nullptr) return std::nullopt;

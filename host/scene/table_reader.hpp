@@ -15,7 +15,7 @@
 namespace hopscotch {
 
 class table_reader {
-  public:
+public:
     /// \param path   dotted name of the table, "" for the whole scene
     /// \param table  null where the scene has no such table: then every key is missing
     /// \param line   where to point when a key is missing
@@ -36,14 +36,18 @@ class table_reader {
 
     bool has(std::string_view key) const { return entry(key) != nullptr; }
     std::vector<std::string> keys() const;
+
+    /// Where the key stands (the table where it is missing), for later messages.
+    std::string place(std::string_view key) const;
     const std::string& path() const { return path_; }
 
     std::optional<std::string> text(std::string_view key) const;
     std::optional<bool> flag(std::string_view key) const;
     /// A number that is not NaN; integers count as numbers.
     std::optional<double> number(std::string_view key) const;
-    std::optional<std::int64_t> whole(std::string_view key, std::int64_t least,
-                                      std::int64_t most = std::numeric_limits<std::int64_t>::max()) const;
+    std::optional<std::int64_t> whole(
+        std::string_view key, std::int64_t least,
+        std::int64_t most = std::numeric_limits<std::int64_t>::max()) const;
     std::optional<std::vector<std::string>> texts(std::string_view key) const;
     std::optional<std::vector<std::int64_t>> wholes(std::string_view key, std::int64_t least) const;
 
@@ -54,7 +58,7 @@ class table_reader {
     [[noreturn]] void missing(std::string_view key, const std::string& why,
                               const std::string& suggestion = "") const;
 
-  private:
+private:
     const setting* entry(std::string_view key) const;
     std::string dotted(std::string_view key) const;
 

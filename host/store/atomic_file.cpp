@@ -86,8 +86,8 @@ void require_room(const std::filesystem::path& path, std::uint64_t bytes) {
     ::unlink(partial.c_str());
     // File systems that cannot reserve room say so; there the write itself will tell.
     if (error == 0 || error == EOPNOTSUPP || error == ENOSYS || error == EINVAL) return;
-    throw system_error_at(path.string(),
-                          "no room for " + std::to_string(bytes / 1024 + 1) + " KiB", error);
+    throw system_error_at(path.string(), "no room for " + std::to_string(bytes / 1024 + 1) + " KiB",
+                          error);
 }
 
 void flush_to_disk(const std::filesystem::path& path) {
@@ -100,7 +100,7 @@ void flush_to_disk(const std::filesystem::path& path) {
 
 std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
     const descriptor file(path, O_RDONLY);
-    struct stat status{};
+    struct stat status {};
     if (!file.is_open() || ::fstat(file.id(), &status) != 0) {
         throw system_error_at(path.string(), "cannot be read", errno);
     }

@@ -1,5 +1,5 @@
-// Small files written so that a reader sees either nothing or all of it: under a temporary name in the
-// same folder, then renamed. Used for tile files; large files use the same temporary names.
+// Small files written so that a reader sees either nothing or all of it: under a temporary name in
+// the same folder, then renamed. Used for tile files; large files use the same temporary names.
 #pragma once
 
 #include <cstddef>

@@ -182,9 +182,14 @@ compressed_tile compress(const map_layout& layout, const tile_data& tile, int le
         const layer& each = layout.layers[i];
         std::vector<std::byte> bytes = padded(layout, tile.box, each, tile.layers[i]);
         switch (each.type) {
-            case number_type::uint8: break;
-            case number_type::int16: bytes = shuffled<2>(bytes); break;
-            case number_type::uint32: bytes = shuffled<4>(bytes); break;
+            case number_type::uint8:
+                break;
+            case number_type::int16:
+                bytes = shuffled<2>(bytes);
+                break;
+            case number_type::uint32:
+                bytes = shuffled<4>(bytes);
+                break;
             case number_type::float64:
                 make_all_nans_equal(bytes);
                 bytes = shuffled<8>(bytes);
@@ -198,12 +203,20 @@ compressed_tile compress(const map_layout& layout, const tile_data& tile, int le
 std::vector<std::byte> decode_chunk(const map_layout& layout, const tile_box& box,
                                     std::size_t layer, std::span<const std::byte> chunk) {
     const struct layer& each = layout.layers.at(layer);
-    std::vector<std::byte> bytes = inflated(chunk, cells_of_full_tile(layout) * bytes_of(each.type));
+    std::vector<std::byte> bytes =
+        inflated(chunk, cells_of_full_tile(layout) * bytes_of(each.type));
     switch (each.type) {
-        case number_type::uint8: break;
-        case number_type::int16: bytes = unshuffled<2>(bytes); break;
-        case number_type::uint32: bytes = unshuffled<4>(bytes); break;
-        case number_type::float64: bytes = unshuffled<8>(bytes); break;
+        case number_type::uint8:
+            break;
+        case number_type::int16:
+            bytes = unshuffled<2>(bytes);
+            break;
+        case number_type::uint32:
+            bytes = unshuffled<4>(bytes);
+            break;
+        case number_type::float64:
+            bytes = unshuffled<8>(bytes);
+            break;
     }
     return cut(layout, box, each, std::move(bytes));
 }

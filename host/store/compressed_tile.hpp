@@ -1,5 +1,6 @@
-// Tiles as they lie in a file: shuffled and deflated by our own code, so that worker threads compress
-// while the one HDF5 thread only moves finished bytes (the serial HDF5 library is not thread safe).
+// Tiles as they lie in a file: shuffled and deflated by our own code, so that worker threads
+// compress while the one HDF5 thread only moves finished bytes (the serial HDF5 library is not
+// thread safe).
 #pragma once
 
 #include "host/map/hash.hpp"
@@ -25,7 +26,8 @@ struct tile_summary {
 
 struct compressed_tile {
     tile_box box;
-    std::vector<std::vector<std::byte>> chunks;  // one HDF5 chunk per layer: a full tile, edge padded
+    std::vector<std::vector<std::byte>>
+        chunks;  // one HDF5 chunk per layer: a full tile, edge padded
     tile_summary summary;
 };
 
@@ -43,8 +45,8 @@ compressed_tile compress(const map_layout& layout, const tile_data& tile, int le
 tile_data decompress(const map_layout& layout, const compressed_tile& tile);
 
 /// One layer of a tile, decoded from its chunk (a full tile), cut to the box.
-std::vector<std::byte> decode_chunk(const map_layout& layout, const tile_box& box, std::size_t layer,
-                                    std::span<const std::byte> chunk);
+std::vector<std::byte> decode_chunk(const map_layout& layout, const tile_box& box,
+                                    std::size_t layer, std::span<const std::byte> chunk);
 
 /// CRC-32 of a chunk as it lies in a file: finds damage without decoding.
 std::uint32_t cyclic_check(std::span<const std::byte> chunk);

@@ -1,77 +1,24 @@
 #include "host/store/hdf5_file.hpp"
 
 #include "host/store/atomic_file.hpp"
-
-#include <hdf5.h>
-#include <hdf5_hl.h>
+#include "host/store/hdf5_types.hpp"
 
 #include <algorithm>
-#include <memory>
-#include <utility>
 
 namespace hopscotch {
 
-static_assert(sizeof(hdf5_handle::identifier) == sizeof(hid_t));
-
 namespace {
 
-std::recursive_mutex& hdf5_mutex() {
-    static std::recursive_mutex mutex;
-    return mutex;
-}
-
-hid_t file_type_of(hdf5_type type) {
-    switch (type) {
-        case hdf5_type::uint8: return H5T_STD_U8LE;
-        case hdf5_type::int16: return H5T_STD_I16LE;
-        case hdf5_type::int32: return H5T_STD_I32LE;
-        case hdf5_type::uint32: return H5T_STD_U32LE;
-        case hdf5_type::uint64: return H5T_STD_U64LE;
-        case hdf5_type::float64:
-        case hdf5_type::text: break;
-    }
-    return H5T_IEEE_F64LE;
-}
-
-/// Text of any length in UTF-8, as netCDF-4 writes it.
-hdf5_handle text_type() {
-    const hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, H5T_VARIABLE);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    return hdf5_handle(type);
-}
-
-/// Text of a fixed length: what netCDF calls a character attribute, which every reader of CF knows.
-hdf5_handle text_type(std::size_t length) {
-    const hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, std::max<std::size_t>(length, 1));
-    H5Tset_strpad(type, H5T_STR_NULLTERM);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    return hdf5_handle(type);
-}
-
-hdf5_handle space_of(const hdf5_file::shape_type& shape) {
-    const std::vector<hsize_t> extent(shape.begin(), shape.end());
-    return hdf5_handle(extent.empty()
-                           ? H5Screate(H5S_SCALAR)
-                           : H5Screate_simple(static_cast<int>(extent.size()), extent.data(),
-                                              nullptr));
-}
-
-std::size_t points_of(const hdf5_handle& space) {
-    const hssize_t n = H5Sget_simple_extent_npoints(space.id());
-    return n > 0 ? static_cast<std::size_t>(n) : 0;
-}
-
-/// Groups that remember the order of their members: readers show them as they were written.
+/// Groups that remember the order of their members: readers show them as they were written. No time
+/// stamps: the same data give the same file.
 hdf5_handle ordered_group(hid_t property_class) {
     const hid_t list = H5Pcreate(property_class);
+    H5Pset_obj_track_times(list, false);
     H5Pset_link_creation_order(list, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
     H5Pset_attr_creation_order(list, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
     return hdf5_handle(list);
 }
 
-/// No time stamps: the same data give the same file.
 hdf5_handle dataset_properties() {
     const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_obj_track_times(list, false);
@@ -86,63 +33,7 @@ hdf5_handle access_properties() {
     return hdf5_handle(list);
 }
 
-/// HDF5's own explanation of the last failure: its innermost message.
-std::string hdf5_reason() {
-    std::string reason;
-    H5Ewalk2(
-        H5E_DEFAULT, H5E_WALK_DOWNWARD,
-        [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {
-            if (error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
-            return 0;
-        },
-        &reason);
-    H5Eclear2(H5E_DEFAULT);
-    return reason;
-}
-
-/// A suggestion where the failure is the disk's.
-std::string suggestion_for(const std::string& reason) {
-    const bool is_full = reason.find("errno = 28") != std::string::npos ||
-                         reason.find("errno = 27") != std::string::npos ||
-                         reason.find("errno = 122") != std::string::npos;
-    return is_full ? "free some space and go on with --resume" : "";
-}
-
-std::string hdf5_words(const std::string& reason) {
-    const std::size_t begin = reason.find("error message = '");
-    if (begin == std::string::npos) return reason;
-    const std::size_t from = begin + std::string("error message = '").size();
-    return reason.substr(from, reason.find('\'', from) - from);
-}
-
 }  // namespace
-
-hdf5_guard::hdf5_guard() : lock_(hdf5_mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-
-hdf5_handle::hdf5_handle(hdf5_handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
-
-hdf5_handle& hdf5_handle::operator=(hdf5_handle&& other) noexcept {
-    if (this != &other) {
-        reset();
-        id_ = std::exchange(other.id_, -1);
-    }
-    return *this;
-}
-
-bool hdf5_handle::reset() noexcept {
-    if (id_ < 0) return true;
-    const hid_t id = std::exchange(id_, -1);
-    switch (H5Iget_type(id)) {
-        case H5I_FILE: return H5Fclose(id) >= 0;
-        case H5I_GROUP: return H5Gclose(id) >= 0;
-        case H5I_DATATYPE: return H5Tclose(id) >= 0;
-        case H5I_DATASPACE: return H5Sclose(id) >= 0;
-        case H5I_DATASET: return H5Dclose(id) >= 0;
-        case H5I_ATTR: return H5Aclose(id) >= 0;
-        case H5I_GENPROP_LST: return H5Pclose(id) >= 0;
-        default: return false;
-    }
-}
 
 hdf5_file::hdf5_file(hdf5_handle file, std::string place)
     : place_(std::move(place)), file_(std::move(file)) {}
@@ -162,7 +53,7 @@ hdf5_file hdf5_file::create_in_memory(const std::string& place) {
     const hdf5_handle access = access_properties();
     // The oldest superblock: H5Fget_file_image breaks the checksum of newer ones (HDF5 1.10.8).
     H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18);
-    H5Pset_fapl_core(access.id(), std::size_t{1} << 20, false);
+    H5Pset_fapl_core(access.id(), std::size_t{1} << 16, false);
     hdf5_file file(hdf5_handle(H5Fcreate(place.c_str(), H5F_ACC_TRUNC, creation.id(), access.id())),
                    place);
     if (!file.file_) file.fail("cannot be made");
@@ -197,8 +88,9 @@ void hdf5_file::close() {
     is_well = (!file_ || H5Fflush(file_.id(), H5F_SCOPE_LOCAL) >= 0) && is_well;
     const std::string reason = is_well ? "" : hdf5_reason();
     is_well = file_.reset() && is_well;
-    if (!is_well) throw store_error(place_, "cannot be written: " + hdf5_words(reason),
-                                    suggestion_for(reason));
+    if (!is_well)
+        throw store_error(place_, "cannot be written: " + hdf5_words(reason),
+                          hdf5_suggestion(reason));
 }
 
 std::vector<std::byte> hdf5_file::image() {
@@ -253,9 +145,9 @@ void hdf5_file::make_dataset(const std::string& path, const chunked_dataset& dat
     H5Pset_deflate(list.id(), static_cast<unsigned>(std::clamp(dataset.level, 0, 9)));
     H5Pset_fill_value(list.id(), H5T_NATIVE_DOUBLE, &dataset.fill);
     const hdf5_handle space = space_of(dataset.shape);
-    datasets_[path] = checked(H5Dcreate2(file_.id(), path.c_str(), type, space.id(), H5P_DEFAULT,
-                                         list.id(), H5P_DEFAULT),
-                              path + " cannot be made");
+    datasets_[path] = checked(
+        H5Dcreate2(file_.id(), path.c_str(), type, space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT),
+        path + " cannot be made");
 }
 
 void hdf5_file::write_chunk(const std::string& path, const shape_type& origin,
@@ -377,137 +269,11 @@ std::vector<std::string> hdf5_file::read_texts(const std::string& path) const {
     return texts;
 }
 
-void hdf5_file::make_scale(const std::string& path, const std::string& name) {
-    check(H5DSset_scale(dataset(path), name.c_str()), path + " cannot be made a dimension scale");
-}
-
-void hdf5_file::attach_scale(const std::string& path, const std::string& scale, unsigned axis) {
-    check(H5DSattach_scale(dataset(path), dataset(scale), axis),
-          scale + " cannot become the scale of " + path);
-}
-
-std::vector<std::string> hdf5_file::scales_of(const std::string& path) const {
-    std::vector<std::string> names(shape_of(path).size());
-    for (unsigned axis = 0; axis < names.size(); ++axis) {
-        const auto take_name = [](hid_t, unsigned, hid_t scale, void* to) -> herr_t {
-            char name[256] = {};
-            H5DSget_scale_name(scale, name, sizeof name);
-            *static_cast<std::string*>(to) = name;
-            return 1;
-        };
-        H5DSiterate_scales(dataset(path), axis, nullptr, take_name, &names[axis]);
-    }
-    return names;
-}
-
-void hdf5_file::put_attribute(const std::string& object, const std::string& name, hid_t file_type,
-                              hid_t memory_type, const hdf5_handle& space, const void* values) {
-    const hdf5_handle owner = this->object(object);
-    if (H5Aexists(owner.id(), name.c_str()) > 0) H5Adelete(owner.id(), name.c_str());
-    const std::string action = "attribute " + name + " of " + object + " cannot be written";
-    const hdf5_handle made = checked(H5Acreate2(owner.id(), name.c_str(), file_type, space.id(),
-                                                H5P_DEFAULT, H5P_DEFAULT),
-                                     action);
-    check(H5Awrite(made.id(), memory_type, values), action);
-}
-
-void hdf5_file::set_attribute(const std::string& object, const std::string& name,
-                              std::string_view text) {
-    const std::string terminated(text);
-    const hdf5_handle type = text_type(terminated.size());
-    put_attribute(object, name, type.id(), type.id(), space_of({}), terminated.c_str());
-}
-
-void hdf5_file::set_text(const std::string& object, const std::string& name,
-                         const std::string& text) {
-    const hdf5_handle type = text_type();
-    const char* pointer = text.c_str();
-    put_attribute(object, name, type.id(), type.id(), space_of({}), &pointer);
-}
-
-void hdf5_file::set_attribute(const std::string& object, const std::string& name,
-                              const numbers& values) {
-    put_attribute(object, name, file_type_of(values.type), H5T_NATIVE_DOUBLE,
-                  space_of({values.values.size()}), values.values.data());
-}
-
-void hdf5_file::set_words(const std::string& object, const std::string& name,
-                          std::span<const std::uint64_t> words) {
-    put_attribute(object, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, space_of({words.size()}),
-                  words.data());
-}
-
-std::vector<std::string> hdf5_file::attribute_names(const std::string& object) const {
-    const hdf5_handle owner = this->object(object);
-    std::vector<std::string> names;
-    const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* to) -> herr_t {
-        static_cast<std::vector<std::string>*>(to)->emplace_back(name);
-        return 0;
-    };
-    if (H5Aiterate2(owner.id(), H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, collect, &names) < 0) {
-        names.clear();
-        H5Aiterate2(owner.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names);
-    }
-    return names;
-}
-
-bool hdf5_file::has_attribute(const std::string& object, const std::string& name) const {
-    return H5Aexists(this->object(object).id(), name.c_str()) > 0;
-}
-
-hdf5_handle hdf5_file::attribute(const std::string& object, const std::string& name) const {
-    const hdf5_handle owner = this->object(object);
-    return checked(H5Aopen(owner.id(), name.c_str(), H5P_DEFAULT),
-                   "attribute " + name + " of " + object + " is missing");
-}
-
-bool hdf5_file::is_text_attribute(const std::string& object, const std::string& name) const {
-    const hdf5_handle type(H5Aget_type(attribute(object, name).id()));
-    return H5Tget_class(type.id()) == H5T_STRING;
-}
-
-std::string hdf5_file::attribute_text(const std::string& object, const std::string& name) const {
-    const hdf5_handle handle = attribute(object, name);
-    const hdf5_handle stored(H5Aget_type(handle.id()));
-    const std::string action = "attribute " + name + " of " + object + " is no text";
-    if (H5Tget_class(stored.id()) != H5T_STRING) fail(action);
-    if (H5Tis_variable_str(stored.id()) > 0) {
-        char* pointer = nullptr;
-        check(H5Aread(handle.id(), stored.id(), &pointer), action);
-        const std::string text = pointer == nullptr ? "" : pointer;
-        H5free_memory(pointer);
-        return text;
-    }
-    std::string text(H5Tget_size(stored.id()), '\0');
-    check(H5Aread(handle.id(), stored.id(), text.data()), action);
-    return text.substr(0, text.find('\0'));
-}
-
-std::vector<double> hdf5_file::attribute_numbers(const std::string& object,
-                                                 const std::string& name) const {
-    const hdf5_handle handle = attribute(object, name);
-    const hdf5_handle space(H5Aget_space(handle.id()));
-    std::vector<double> values(points_of(space));
-    check(H5Aread(handle.id(), H5T_NATIVE_DOUBLE, values.data()),
-          "attribute " + name + " of " + object + " holds no numbers");
-    return values;
-}
-
-std::vector<std::uint64_t> hdf5_file::attribute_words(const std::string& object,
-                                                      const std::string& name) const {
-    const hdf5_handle handle = attribute(object, name);
-    const hdf5_handle space(H5Aget_space(handle.id()));
-    std::vector<std::uint64_t> values(points_of(space));
-    check(H5Aread(handle.id(), H5T_NATIVE_UINT64, values.data()),
-          "attribute " + name + " of " + object + " holds no numbers");
-    return values;
-}
-
 hid_t hdf5_file::dataset(const std::string& path) const {
     const auto known = datasets_.find(path);
     if (known != datasets_.end()) return known->second.id();
-    hdf5_handle opened = checked(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT),
-                                 "dataset " + path + " is missing");
+    hdf5_handle opened =
+        checked(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), "dataset " + path + " is missing");
     return datasets_.emplace(path, std::move(opened)).first->second.id();
 }
 
@@ -519,7 +285,7 @@ void hdf5_file::fail(const std::string& action) const {
     const std::string reason = hdf5_reason();
     const std::string words = hdf5_words(reason);
     throw store_error(place_, words.empty() ? action : action + ": " + words,
-                      suggestion_for(reason));
+                      hdf5_suggestion(reason));
 }
 
 hdf5_handle hdf5_file::checked(hid_t id, const std::string& action) const {

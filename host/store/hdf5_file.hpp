@@ -1,15 +1,15 @@
-// The one place that calls HDF5: a file whose groups, datasets, dimension scales and attributes are
+// The one class that calls HDF5: a file whose groups, datasets, dimension scales and attributes are
 // named by path. HDF5's own messages are silenced and folded into the store_error that is thrown.
 // The serial HDF5 library is not thread safe: whoever uses this class holds an hdf5_guard.
 #pragma once
 
+#include "host/store/hdf5_handle.hpp"
 #include "host/store/store_error.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,36 +18,8 @@
 
 namespace hopscotch {
 
-/// Held during any use of HDF5; may be taken again by the same thread.
-class hdf5_guard {
-public:
-    hdf5_guard();
-
-private:
-    std::unique_lock<std::recursive_mutex> lock_;
-};
-
 /// Types as they lie in a file.
 enum class hdf5_type : std::uint8_t { uint8, int16, int32, uint32, uint64, float64, text };
-
-/// Owns one HDF5 identifier of any kind.
-class hdf5_handle {
-public:
-    using identifier = std::int64_t;  // HDF5's hid_t
-
-    hdf5_handle() = default;
-    explicit hdf5_handle(identifier id) : id_(id) {}
-    ~hdf5_handle() { reset(); }
-    hdf5_handle(hdf5_handle&& other) noexcept;
-    hdf5_handle& operator=(hdf5_handle&& other) noexcept;
-
-    identifier id() const { return id_; }
-    explicit operator bool() const { return id_ >= 0; }
-    bool reset() noexcept;  // false where HDF5 could not close it
-
-private:
-    identifier id_ = -1;
-};
 
 /// A dataset made of chunks that the caller compresses.
 struct chunked_dataset {
@@ -59,7 +31,7 @@ struct chunked_dataset {
 };
 
 /// Numbers of the given type in an attribute; text attributes are plain strings.
-struct numbers {
+struct typed_numbers {
     hdf5_type type = hdf5_type::float64;
     std::vector<double> values;
 };
@@ -121,7 +93,8 @@ public:
     void set_attribute(const std::string& object, const std::string& name, std::string_view text);
     /// Text as a string of any length (h5py and MATLAB give it back as text).
     void set_text(const std::string& object, const std::string& name, const std::string& text);
-    void set_attribute(const std::string& object, const std::string& name, const numbers& values);
+    void set_attribute(const std::string& object, const std::string& name,
+                       const typed_numbers& values);
     void set_words(const std::string& object, const std::string& name,
                    std::span<const std::uint64_t> words);
     std::vector<std::string> attribute_names(const std::string& object) const;

@@ -53,7 +53,7 @@ std::string colour_words(const std::vector<std::pair<int, std::string>>& flags,
 }
 
 void write_flags(hdf5_file& file, const layer& each, const std::vector<attractor_row>& attractors) {
-    numbers values{stored_as(each.type), {}};
+    typed_numbers values{stored_as(each.type), {}};
     std::string meanings;
     for (const auto& [value, name] : each.flags) {
         values.values.push_back(value);
@@ -74,7 +74,7 @@ void write_layer(hdf5_file& file, const map_description& map, const layer& each)
         file.attach_scale(each.name, map.layout.axes[i].name, i);
     }
     describe(file, each.name, each.unit, each.long_name);
-    file.set_attribute(each.name, "_FillValue", numbers{dataset.type, {each.fill}});
+    file.set_attribute(each.name, "_FillValue", typed_numbers{dataset.type, {each.fill}});
     if (!each.flags.empty()) write_flags(file, each, map.attractors);
 }
 
@@ -95,11 +95,16 @@ axis read_axis(hdf5_file& file, const std::string& name) {
 
 number_type number_type_of(const hdf5_file& file, const std::string& name) {
     switch (file.type_of(name)) {
-        case hdf5_type::uint8: return number_type::uint8;
-        case hdf5_type::int16: return number_type::int16;
-        case hdf5_type::uint32: return number_type::uint32;
-        case hdf5_type::float64: return number_type::float64;
-        default: break;
+        case hdf5_type::uint8:
+            return number_type::uint8;
+        case hdf5_type::int16:
+            return number_type::int16;
+        case hdf5_type::uint32:
+            return number_type::uint32;
+        case hdf5_type::float64:
+            return number_type::float64;
+        default:
+            break;
     }
     throw store_error(file.place() + ": " + name, "not a number type of a layer", "");
 }
@@ -137,10 +142,14 @@ void restore_label_names(map_description& map) {
 
 hdf5_type stored_as(number_type type) {
     switch (type) {
-        case number_type::uint8: return hdf5_type::uint8;
-        case number_type::int16: return hdf5_type::int16;
-        case number_type::uint32: return hdf5_type::uint32;
-        case number_type::float64: break;
+        case number_type::uint8:
+            return hdf5_type::uint8;
+        case number_type::int16:
+            return hdf5_type::int16;
+        case number_type::uint32:
+            return hdf5_type::uint32;
+        case number_type::float64:
+            break;
     }
     return hdf5_type::float64;
 }

@@ -1,6 +1,7 @@
-// The layout of a map on disk, written and read: axes as dimension scales, layers with CF attributes,
-// the groups /attractors and /tiles, global attributes. Everything but the layers' numbers, which
-// map_run puts in as chunks. netCDF-4 readers, h5py, ParaView and MATLAB open it without this project.
+// The layout of a map on disk, written and read: axes as dimension scales, layers with CF
+// attributes, the groups /attractors and /tiles, global attributes. Everything but the layers'
+// numbers, which map_run puts in as chunks. netCDF-4 readers, h5py, ParaView and MATLAB open it
+// without this project.
 //
 //   /<axis>       float64, dimension scale; units, long_name, scale = linear | log
 //   /<layer>      on the axes, chunk = tile, shuffle + deflate; units, long_name, _FillValue = "not
@@ -36,8 +37,8 @@ struct tile_row {
 
 hdf5_type stored_as(number_type type);
 
-/// A description fit for writing: throws store_error where names clash or an axis has no cell; a layer
-/// `label` without flags takes the attractors' names.
+/// A description fit for writing: throws store_error where names clash or an axis has no cell; a
+/// layer `label` without flags takes the attractors' names.
 map_description completed(map_description map, const std::string& place);
 
 void write_description(hdf5_file& file, const map_description& map);
@@ -45,7 +46,8 @@ map_description read_description(hdf5_file& file);
 
 void write_attractors(hdf5_file& file, const std::vector<attractor_row>& rows,
                       const std::vector<std::string>& point_columns);
-std::vector<attractor_row> read_attractors(hdf5_file& file, std::vector<std::string>& point_columns);
+std::vector<attractor_row> read_attractors(hdf5_file& file,
+                                           std::vector<std::string>& point_columns);
 
 void write_tile_table(hdf5_file& file, const map_layout& layout, const std::vector<tile_row>& rows);
 std::vector<tile_row> read_tile_table(hdf5_file& file, const map_layout& layout);

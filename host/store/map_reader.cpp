@@ -14,26 +14,62 @@ namespace hopscotch {
 
 namespace {
 
-/// Where the cells of a strided range that fall into a tile come from and go to, along one axis.
-struct axis_cells {
-    std::vector<std::uint64_t> from;  // position in the tile
-    std::vector<std::uint64_t> to;    // position in the result
-};
-
-axis_cells cells_along(const cell_range& range, const tile_box& box, std::size_t axis) {
-    axis_cells cells;
-    const std::uint64_t stride = range.stride[axis];
-    const std::uint64_t begin = box.origin[axis];
-    const std::uint64_t first =
-        begin <= range.origin[axis] ? 0 : (begin - range.origin[axis] + stride - 1) / stride;
-    const std::uint64_t end = std::min(begin + box.extent[axis],
-                                       range.origin[axis] + range.extent[axis]);
-    for (std::uint64_t k = first; range.origin[axis] + k * stride < end; ++k) {
-        cells.from.push_back(range.origin[axis] + k * stride - begin);
-        cells.to.push_back(k);
+/// The cells of a strided range that fall into one tile: where they come from and where they go.
+class tile_cells {
+public:
+    tile_cells(const cell_range& range, const tile_box& box)
+        : tile_shape_(box.extent), range_shape_(range.shape()) {
+        for (std::size_t i = 0; i < box.extent.size(); ++i) {
+            along_.push_back(cells_along(range, box, i));
+            extent_.push_back(along_.back().from.size());
+        }
     }
-    return cells;
-}
+
+    bool is_empty() const { return std::count(extent_.begin(), extent_.end(), 0U) > 0; }
+
+    void copy(number_type type, const std::vector<std::byte>& tile,
+              std::vector<double>& result) const {
+        const axis_cells& last = along_.back();
+        std::vector<std::uint64_t> from(extent_.size());
+        std::vector<std::uint64_t> to(extent_.size());
+        for_each_row(extent_, [&](const std::vector<std::uint64_t>& position) {
+            for (std::size_t i = 0; i + 1 < extent_.size(); ++i) {
+                from[i] = along_[i].from[position[i]];
+                to[i] = along_[i].to[position[i]];
+            }
+            const std::uint64_t from_row = offset_in(tile_shape_, from);
+            const std::uint64_t to_row = offset_in(range_shape_, to);
+            for (std::uint64_t j = 0; j < extent_.back(); ++j) {
+                result[to_row + last.to[j]] = number_at(type, tile.data(), from_row + last.from[j]);
+            }
+        });
+    }
+
+private:
+    struct axis_cells {
+        std::vector<std::uint64_t> from;  // position in the tile
+        std::vector<std::uint64_t> to;    // position in the result
+    };
+
+    static axis_cells cells_along(const cell_range& range, const tile_box& box, std::size_t axis) {
+        const std::uint64_t stride = range.stride[axis];
+        const std::uint64_t origin = range.origin[axis];
+        const std::uint64_t begin = box.origin[axis];
+        const std::uint64_t end = std::min(begin + box.extent[axis], origin + range.extent[axis]);
+        axis_cells cells;
+        std::uint64_t k = begin <= origin ? 0 : (begin - origin + stride - 1) / stride;
+        for (; origin + k * stride < end; ++k) {
+            cells.from.push_back(origin + k * stride - begin);
+            cells.to.push_back(k);
+        }
+        return cells;
+    }
+
+    std::vector<std::uint64_t> tile_shape_;
+    std::vector<std::uint64_t> range_shape_;
+    std::vector<axis_cells> along_;
+    std::vector<std::uint64_t> extent_;
+};
 
 /// Tiles that a range touches, in C order.
 std::vector<std::uint64_t> tiles_of(const map_layout& layout, const cell_range& range) {
@@ -58,8 +94,8 @@ std::vector<std::uint64_t> tiles_of(const map_layout& layout, const cell_range& 
 cell_range validated(const map_layout& layout, cell_range range) {
     const std::size_t rank = layout.axes.size();
     if (range.stride.empty()) range.stride.assign(rank, 1);
-    bool is_valid = range.origin.size() == rank && range.extent.size() == rank &&
-                    range.stride.size() == rank;
+    bool is_valid =
+        range.origin.size() == rank && range.extent.size() == rank && range.stride.size() == rank;
     for (std::size_t i = 0; is_valid && i < rank; ++i) {
         is_valid = range.extent[i] > 0 && range.stride[i] > 0 &&
                    range.origin[i] < layout.axes[i].size() &&
@@ -87,8 +123,8 @@ struct map_reader::implementation {
     std::vector<std::byte> layer_of(std::uint64_t tile, std::size_t layer);
     bool has_tile(std::uint64_t tile);
 
-    std::filesystem::path place;      // the file, or the run directory
-    std::optional<hdf5_file> file;    // a finished map
+    std::filesystem::path place;    // the file, or the run directory
+    std::optional<hdf5_file> file;  // a finished map
     map_description map;
     std::string fingerprint;
     std::vector<tile_row> table;      // of a finished map
@@ -123,14 +159,12 @@ void map_reader::implementation::fail(std::uint64_t tile, const std::string& rea
 bool map_reader::implementation::has_tile(std::uint64_t tile) {
     if (!file) return std::filesystem::exists(tile_path(place, tile));
     const tile_box& box = table[tile].box;
-    return std::all_of(map.layout.layers.begin(), map.layout.layers.end(), [&](const layer& each) {
-        return file->has_chunk(each.name, box.origin);
-    });
+    return std::all_of(map.layout.layers.begin(), map.layout.layers.end(),
+                       [&](const layer& each) { return file->has_chunk(each.name, box.origin); });
 }
 
 /// The checked numbers of one layer of one tile.
-std::vector<std::byte> map_reader::implementation::layer_of(std::uint64_t tile,
-                                                            std::size_t layer) {
+std::vector<std::byte> map_reader::implementation::layer_of(std::uint64_t tile, std::size_t layer) {
     const hdf5_guard guard;
     const tile_box box = box_of(map.layout, tile);
     const std::string& name = map.layout.layers[layer].name;
@@ -229,36 +263,13 @@ std::vector<double> map_reader::read(std::string_view layer, const cell_range& a
     const struct layer& wanted = layout().layers[index];
     std::vector<double> result(n, wanted.fill);
     for (const std::uint64_t tile : tiles_of(layout(), range)) {
-        const tile_box box = box_of(layout(), tile);
-        std::vector<axis_cells> cells;
-        std::vector<std::uint64_t> extent;
-        for (std::size_t i = 0; i < shape.size(); ++i) {
-            cells.push_back(cells_along(range, box, i));
-            extent.push_back(cells.back().from.size());
-        }
-        if (std::count(extent.begin(), extent.end(), 0U) > 0) continue;  // between the strides
-        std::vector<std::byte> values;
+        const tile_cells cells(range, box_of(layout(), tile));
+        if (cells.is_empty()) continue;  // the tile lies between the strides
         try {
-            values = self_->layer_of(tile, index);
+            cells.copy(wanted.type, self_->layer_of(tile, index), result);
         } catch (const store_error& error) {
             if (self_->damaged.insert(tile).second) self_->problems.push_back(error.what());
-            continue;
         }
-        std::vector<std::uint64_t> from(shape.size());
-        std::vector<std::uint64_t> to(shape.size());
-        for_each_row(extent, [&](const std::vector<std::uint64_t>& position) {
-            for (std::size_t i = 0; i + 1 < shape.size(); ++i) {
-                from[i] = cells[i].from[position[i]];
-                to[i] = cells[i].to[position[i]];
-            }
-            from.back() = to.back() = 0;
-            const std::uint64_t from_row = offset_in(box.extent, from);
-            const std::uint64_t to_row = offset_in(shape, to);
-            for (std::uint64_t j = 0; j < extent.back(); ++j) {
-                result[to_row + cells.back().to[j]] =
-                    number_at(wanted.type, values.data(), from_row + cells.back().from[j]);
-            }
-        });
     }
     return result;
 }

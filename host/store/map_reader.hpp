@@ -1,6 +1,8 @@
 // Reads a map: a finished file, or the run directory of an unfinished one. Every tile is checked
-// against its checksum before its numbers are used; what is missing or damaged reads as the fill value
-// ("not computed") and is listed, never given as data. Memory: one tile at a time.
+// against its checksum before its numbers are used; what is missing or damaged reads as the fill
+// value
+// ("not computed") and is listed, never given as data. Memory: one tile at a time. A reader belongs
+// to one thread; several readers may work side by side.
 #pragma once
 
 #include "host/map/layout.hpp"
@@ -19,7 +21,7 @@ namespace hopscotch {
 /// A rectangle of cells, every stride-th one along each axis (empty stride: every cell).
 struct cell_range {
     std::vector<std::uint64_t> origin;
-    std::vector<std::uint64_t> extent;    // in cells of the map, before striding
+    std::vector<std::uint64_t> extent;  // in cells of the map, before striding
     std::vector<std::uint64_t> stride{};
 
     std::vector<std::uint64_t> shape() const;  // number of cells read along each axis
@@ -50,8 +52,8 @@ public:
     /// Checksums as stored in the tile table, one per layer. \error store_error where it is missing
     std::vector<layer_sum> stored_sums(std::uint64_t index) const;
 
-    /// Numbers of one layer in C order; missing and damaged tiles read as the layer's fill value and
-    /// are added to `problems()`.
+    /// Numbers of one layer in C order; missing and damaged tiles read as the layer's fill value
+    /// and are added to `problems()`.
     std::vector<double> read(std::string_view layer, const cell_range& range) const;
 
     /// The whole layer (for maps known to be small).

@@ -7,6 +7,7 @@
 #include "host/store/tile_file.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -31,10 +32,10 @@ bool is_same(const map_layout& a, const map_layout& b) {
 void require_same_scene(const std::filesystem::path& place, const std::string& there,
                         const std::string& fingerprint) {
     if (there == fingerprint) return;
-    throw store_error(place.string(),
-                      "belongs to another scene: fingerprint " + there + ", this scene's is " +
-                          fingerprint,
-                      "remove it or choose another name with -o");
+    throw store_error(
+        place.string(),
+        "belongs to another scene: fingerprint " + there + ", this scene's is " + fingerprint,
+        "remove it or choose another name with -o");
 }
 
 std::string plural(std::uint64_t n, const std::string& noun) {
@@ -53,6 +54,7 @@ struct map_run::implementation {
     void open_as_helper();
     bool is_map_there();
     void clear_or_refuse();
+    void require_same_run();
     void load(std::uint64_t tile);
     void scan();
     std::uint64_t n_finished() const;
@@ -105,18 +107,29 @@ void map_run::implementation::clear_or_refuse() {
                           "an unfinished run with " + plural(present.size(), "tile") + " of " +
                               std::to_string(layout.n_tiles()),
                           "go on with --resume or remove the folder");
-    } else if (!present.empty() && std::filesystem::exists(description_path(directory))) {
-        const map_description before = read_run_description(directory);
-        require_same_scene(directory, attribute_of(before.attributes, "fingerprint"),
-                           options.fingerprint);
-        if (!is_same(before.layout, layout)) {
-            throw store_error(directory.string(), "an unfinished run with another grid or tiles",
-                              "remove the folder");
-        }
+    } else if (!present.empty()) {
+        require_same_run();
+    }
+}
+
+void map_run::implementation::require_same_run() {
+    map_description before;
+    try {
+        before = read_run_description(directory);
+    } catch (const store_error& error) {
+        notes.push_back(std::string(error.what()) + ": written anew");
+        return;  // the tiles know their scene themselves
+    }
+    require_same_scene(directory, attribute_of(before.attributes, "fingerprint"),
+                       options.fingerprint);
+    if (!is_same(before.layout, layout)) {
+        throw store_error(directory.string(), "an unfinished run with another grid or tiles",
+                          "remove the folder");
     }
 }
 
 void map_run::implementation::open() {
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error, not a death
     if (options.role == run_role::helper) return open_as_helper();
     is_complete = is_map_there();
     if (is_complete) return;
@@ -126,14 +139,14 @@ void map_run::implementation::open() {
     clear_or_refuse();
     map_description map{layout, options.attributes, {}, {}};
     set_attribute(map.attributes, "fingerprint", options.fingerprint);
-    write_run_description(directory, completed(map, options.map.string()));
-    scan();
+    map = completed(std::move(map), options.map.string());
+    scan();  // before anything of an earlier run is overwritten
+    write_run_description(directory, map);
 }
 
 void map_run::implementation::open_as_helper() {
     const map_description map = read_run_description(directory);
-    require_same_scene(directory, attribute_of(map.attributes, "fingerprint"),
-                       options.fingerprint);
+    require_same_scene(directory, attribute_of(map.attributes, "fingerprint"), options.fingerprint);
     for (const std::uint64_t tile : tiles_present(directory)) {
         if (tile < finished.size()) finished[tile].emplace();  // its owner has checked it
     }
@@ -143,12 +156,12 @@ void map_run::implementation::open_as_helper() {
 void map_run::implementation::load(std::uint64_t tile) {
     const std::string place = tile_path(directory, tile).string();
     try {
-        const compressed_tile stored =
-            read_tile(directory, layout, options.fingerprint, tile);
+        const compressed_tile stored = read_tile(directory, layout, options.fingerprint, tile);
         tile_summary summary = summarise(layout, checked_tile(layout, stored, place));
         summary.seconds = stored.summary.seconds;
         finished[tile] = std::move(summary);
     } catch (const store_error& error) {
+        if (error.reason() == another_scene) throw;
         remove_file(place);
         notes.push_back(place + " (" + error.reason() + "): removed, it is computed again");
     }
@@ -161,8 +174,8 @@ void map_run::implementation::scan() {
 }
 
 std::uint64_t map_run::implementation::n_finished() const {
-    return static_cast<std::uint64_t>(
-        std::count_if(finished.begin(), finished.end(), [](const auto& t) { return t.has_value(); }));
+    return static_cast<std::uint64_t>(std::count_if(finished.begin(), finished.end(),
+                                                    [](const auto& t) { return t.has_value(); }));
 }
 
 std::vector<layer_sum> map_run::implementation::sums() const {

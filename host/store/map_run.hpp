@@ -1,8 +1,9 @@
-// A map while it is computed: a run directory `<map>.tiles` with one small HDF5 file per finished tile,
-// packed into the single map file at the end. `kill -9` at any moment loses only the tiles in flight.
+// A map while it is computed: a run directory `<map>.tiles` with one small HDF5 file per finished
+// tile, packed into the single map file at the end. `kill -9` at any moment loses only the tiles in
+// flight.
 //
-//     map_run run(layout, {.map = "basin.h5", .fingerprint = ..., .attributes = ..., .existing = ...});
-//     for (tile : run.missing_tiles())            // any order, any thread
+//     map_run run(layout, {.map = "basin.h5", .fingerprint = ..., .attributes = ..., .existing =
+//     ...}); for (tile : run.missing_tiles())            // any order, any thread
 //         run.put(compress(layout, compute(tile), 4, seconds));
 //     run.finish({.attributes = ..., .attractors = ...});
 //
@@ -25,7 +26,8 @@ namespace hopscotch {
 /// What to do where the map file or its run directory is already there.
 enum class if_exists : std::uint8_t {
     refuse,   // store_error that says what is there
-    resume,   // go on with the finished tiles of the same scene; a finished map is complete() at once
+    resume,   // go on with the finished tiles of the same scene; a finished map is complete() at
+              // once
     replace,  // drop unfinished tiles; an old map file is replaced when the new one is finished
 };
 
@@ -36,9 +38,9 @@ enum class run_role : std::uint8_t {
 };
 
 struct run_options {
-    std::filesystem::path map;       // the finished file
-    std::string fingerprint{};       // of the scene: only its own scene resumes a run
-    attribute_list attributes{};     // known before the run: scene text, version, backend ...
+    std::filesystem::path map;    // the finished file
+    std::string fingerprint{};    // of the scene: only its own scene resumes a run
+    attribute_list attributes{};  // known before the run: scene text, version, backend ...
     if_exists existing = if_exists::refuse;
     run_role role = run_role::owner;
 };
@@ -52,7 +54,8 @@ struct map_summary {
 
 class map_run {
 public:
-    /// Opens the run: makes the directory, takes its lock, reads and checks the tiles of an earlier run.
+    /// Opens the run: makes the directory, takes its lock, reads and checks the tiles of an earlier
+    /// run.
     map_run(const map_layout& layout, const run_options& options);
     ~map_run();  // gives the lock back; unfinished tiles stay for --resume
     map_run(map_run&&) noexcept;
@@ -61,7 +64,8 @@ public:
     /// True where the finished map file of this scene is already there (if_exists::resume only).
     bool complete() const;
 
-    /// What opening met and the user should read: damaged tiles dropped, a dead run's lock taken over.
+    /// What opening met and the user should read: damaged tiles dropped, a dead run's lock taken
+    /// over.
     const std::vector<std::string>& notes() const;
 
     std::vector<std::uint64_t> finished_tiles() const;
@@ -70,7 +74,7 @@ public:
     /// Writes one finished tile: temporary name, then rename. A tile put twice is replaced.
     void put(const compressed_tile& tile);
 
-    /// The numbers of a finished tile.
+    /// The numbers of a finished tile, until `finish` has packed it.
     tile_data read(std::uint64_t tile) const;
 
     /// How often each value of an integer layer (uint8, int16) occurs in the finished tiles.

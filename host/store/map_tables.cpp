@@ -121,7 +121,8 @@ void write_attractors(hdf5_file& file, const std::vector<attractor_row>& rows,
     make_coordinate(file, "/attractors", "label", hdf5_type::int32,
                     column_of(rows, [](const auto& row) { return row.label; }));
     file.set_attribute("/attractors/label", "long_name", "value in the layer label");
-    texts_of("name", [](const auto& row) { return row.name; }, "name of the attractor");
+    texts_of(
+        "name", [](const auto& row) { return row.name; }, "name of the attractor");
     numbers_of("period", hdf5_type::int32,
                column_of(rows, [](const auto& row) { return row.period; }),
                "returns per period, 0 where aperiodic");
@@ -131,8 +132,9 @@ void write_attractors(hdf5_file& file, const std::vector<attractor_row>& rows,
     numbers_of("colour", hdf5_type::uint32,
                column_of(rows, [](const auto& row) { return row.colour; }),
                "colour in pictures, red * 65536 + green * 256 + blue");
-    texts_of("trap", [](const auto& row) { return row.trap; },
-             "the set whose members are proved to be attracted");
+    texts_of(
+        "trap", [](const auto& row) { return row.trap; },
+        "the set whose members are proved to be attracted");
     write_points(file, rows, point_columns);
     write_multipliers(file, rows);
 }
@@ -201,7 +203,7 @@ void write_tile_table(hdf5_file& file, const map_layout& layout,
     attach(file, "/tiles", "checksum", {"tile", "layer", "word"},
            "sum over the tile's cells, 128 bits in two words");
     // Times differ from run to run: an attribute, so that all datasets of equal maps are equal.
-    file.set_attribute("/tiles", "compute_seconds", numbers{hdf5_type::float64, seconds});
+    file.set_attribute("/tiles", "compute_seconds", typed_numbers{hdf5_type::float64, seconds});
 }
 
 std::vector<tile_row> read_tile_table(hdf5_file& file, const map_layout& layout) {

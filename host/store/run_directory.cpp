@@ -10,7 +10,8 @@ namespace hopscotch {
 
 namespace {
 
-/// Calls visit(path) for every file of the directory; the list is made first, so that visit may remove.
+/// Calls visit(path) for every file of the directory; the list is made first, so that visit may
+/// remove.
 template <class Visit>
 void for_each_file(const std::filesystem::path& directory, Visit&& visit) {
     std::error_code error;

@@ -1,5 +1,5 @@
-// The files of an unfinished map: `<map>.tiles/` with `run.h5` (the map without numbers), `lock` and
-// one file per finished tile. Knows their names; map_run decides what happens to them.
+// The files of an unfinished map: `<map>.tiles/` with `run.h5` (the map without numbers), `lock`
+// and one file per finished tile. Knows their names; map_run decides what happens to them.
 #pragma once
 
 #include "host/store/map_file.hpp"

@@ -58,8 +58,8 @@ holder read_holder(int descriptor) {
 }
 
 void write_holder(int descriptor, const std::filesystem::path& file) {
-    const std::string text = "process " + std::to_string(::getpid()) + " host " + host_name() +
-                             " since " + now() + "\n";
+    const std::string text =
+        "process " + std::to_string(::getpid()) + " host " + host_name() + " since " + now() + "\n";
     if (::ftruncate(descriptor, 0) != 0 ||
         ::pwrite(descriptor, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
         throw system_error_at(file.string(), "the lock cannot be written", errno);
@@ -68,8 +68,8 @@ void write_holder(int descriptor, const std::filesystem::path& file) {
 
 /// True where the name still leads to the open file: its last holder may have removed it meanwhile.
 bool is_in_place(int descriptor, const std::filesystem::path& file) {
-    struct stat opened{};
-    struct stat named{};
+    struct stat opened {};
+    struct stat named {};
     return ::fstat(descriptor, &opened) == 0 && ::stat(file.c_str(), &named) == 0 &&
            opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
@@ -100,10 +100,10 @@ run_lock::run_lock(const std::filesystem::path& directory) : file_(directory / "
     const bool is_same_host = other.host == host_name();
     // Where the file system knows no locks, the process number is all there is.
     const bool may_be_alive =
-        has_kernel_lock ? false
-                        : lock_error == EWOULDBLOCK || (other.process > 0 && is_same_host &&
-                                                        ::kill(static_cast<pid_t>(other.process),
-                                                               0) == 0);
+        has_kernel_lock
+            ? false
+            : lock_error == EWOULDBLOCK || (other.process > 0 && is_same_host &&
+                                            ::kill(static_cast<pid_t>(other.process), 0) == 0);
     const bool is_elsewhere = other.process > 0 && !is_same_host;
     if (may_be_alive || is_elsewhere) {
         ::close(descriptor);
@@ -112,8 +112,7 @@ run_lock::run_lock(const std::filesystem::path& directory) : file_(directory / "
                           "if that run is dead, remove " + file_.string());
     }
     if (other.process > 0) {
-        note_ = directory.string() + ": took over from " + other.words() +
-                ", which runs no longer";
+        note_ = directory.string() + ": took over from " + other.words() + ", which runs no longer";
     }
     descriptor_ = descriptor;
     write_holder(descriptor, file_);

@@ -1,5 +1,5 @@
-// One run per run directory: a lock file with process, host and start time. A second run meets a clear
-// error; the lock of a dead run is taken over.
+// One run per run directory: a lock file with process, host and start time. A second run meets a
+// clear error; the lock of a dead run is taken over.
 #pragma once
 
 #include <filesystem>

@@ -17,16 +17,22 @@ std::string one_line(const std::string& place, const std::string& reason,
 std::string suggestion_for(int error_number) {
     switch (error_number) {
         case ENOSPC:
-        case EDQUOT: return "free some space and go on with --resume";
-        case EFBIG: return "raise the file size limit (ulimit -f) and go on with --resume";
+        case EDQUOT:
+            return "free some space and go on with --resume";
+        case EFBIG:
+            return "raise the file size limit (ulimit -f) and go on with --resume";
         case EACCES:
         case EPERM:
-        case EROFS: return "choose a folder that can be written with -o";
+        case EROFS:
+            return "choose a folder that can be written with -o";
         case ENOENT:
-        case ENOTDIR: return "make the folder first or choose another with -o";
+        case ENOTDIR:
+            return "make the folder first or choose another with -o";
         case EMFILE:
-        case ENFILE: return "raise the limit of open files (ulimit -n)";
-        default: return "";
+        case ENFILE:
+            return "raise the limit of open files (ulimit -n)";
+        default:
+            return "";
     }
 }
 
@@ -38,8 +44,7 @@ store_error::store_error(std::string place, std::string reason, std::string sugg
       reason_(std::move(reason)),
       suggestion_(std::move(suggestion)) {}
 
-store_error system_error_at(const std::string& place, const std::string& action,
-                            int error_number) {
+store_error system_error_at(const std::string& place, const std::string& action, int error_number) {
     return {place, action + ": " + std::generic_category().message(error_number),
             suggestion_for(error_number)};
 }

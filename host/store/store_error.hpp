@@ -1,5 +1,5 @@
-// What goes wrong with files: one typed error whose text is one line, `PLACE (reason); suggestion?`.
-// The command line prints it and ends with exit code 4.
+// What goes wrong with files: one typed error whose text is one line, `PLACE (reason);
+// suggestion?`. The command line prints it and ends with exit code 4.
 #pragma once
 
 #include <stdexcept>
@@ -21,8 +21,8 @@ private:
     std::string suggestion_;
 };
 
-/// The error for a failed system call on a file: the reason is errno in words, the suggestion fits it
-/// (disk full, no permission, read-only file system ...).
+/// The error for a failed system call on a file: the reason is errno in words, the suggestion fits
+/// it (disk full, no permission, read-only file system ...).
 store_error system_error_at(const std::string& place, const std::string& action, int error_number);
 
 }  // namespace hopscotch

@@ -32,7 +32,7 @@ std::vector<std::byte> image_of(const std::string& place, const map_layout& layo
     file.set_words("/", "extent", tile.box.extent);
     file.set_words("/", "checksum", sums);
     file.set_words("/", "chunk_check", checks);
-    file.set_attribute("/", "seconds", numbers{hdf5_type::float64, {tile.summary.seconds}});
+    file.set_attribute("/", "seconds", typed_numbers{hdf5_type::float64, {tile.summary.seconds}});
     return file.image();
 }
 
@@ -46,13 +46,14 @@ compressed_tile parse(const std::vector<std::byte>& image, const std::string& pl
     const hdf5_guard guard;
     hdf5_file file = hdf5_file::open_image(image, place);
     if (file.attribute_text("/", "fingerprint") != fingerprint) {
-        throw store_error(place, "a tile of another scene", "remove it");
+        throw store_error(place, another_scene, "remove it");
     }
     compressed_tile tile{box_of(layout, index), {}, {}};
     if (file.attribute_words("/", "origin") != tile.box.origin ||
         file.attribute_words("/", "extent") != tile.box.extent) {
-        throw store_error(place, "its place in the map is not that of tile " +
-                                     std::to_string(index), "remove it");
+        throw store_error(place,
+                          "its place in the map is not that of tile " + std::to_string(index),
+                          "remove it");
     }
     const std::vector<std::uint64_t> sums = file.attribute_words("/", "checksum");
     const std::vector<std::uint64_t> checks = file.attribute_words("/", "chunk_check");

@@ -1,5 +1,5 @@
-// One finished tile of an unfinished map: a small HDF5 file with one chunk per layer, complete from the
-// moment it has its name. Used by map_run while computing and by map_reader on a run directory.
+// One finished tile of an unfinished map: a small HDF5 file with one chunk per layer, complete from
+// the moment it has its name. Used by map_run while computing and by map_reader on a run directory.
 #pragma once
 
 #include "host/map/layout.hpp"
@@ -13,6 +13,10 @@
 namespace hopscotch {
 
 std::filesystem::path tile_path(const std::filesystem::path& directory, std::uint64_t tile);
+
+/// Reason of the store_error for a tile with another fingerprint: it is sound, but not ours to
+/// remove.
+inline constexpr const char* another_scene = "a tile of another scene";
 
 /// The tile a file name stands for, if any.
 std::optional<std::uint64_t> tile_of(const std::filesystem::path& file);

@@ -30,9 +30,9 @@ std::vector<map_problem> verify_file(const std::filesystem::path& path) {
                 const std::vector<layer_sum> stored = map.stored_sums(tile);
                 for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += stored[i];
             } catch (const store_error& error) {
-                problems.push_back({is_missing ? map_problem::kind::missing_tile
-                                               : map_problem::kind::damaged_tile,
-                                    tile, error.what()});
+                problems.push_back(
+                    {is_missing ? map_problem::kind::missing_tile : map_problem::kind::damaged_tile,
+                     tile, error.what()});
             }
         }
         if (map.is_finished_map() && problems.empty()) {

@@ -1,5 +1,5 @@
-// Finds what is wrong with a map on disk: missing tiles, checksums that do not match, chunks that do
-// not decode, a hash that is not the map's. Used by `verify` and by tests.
+// Finds what is wrong with a map on disk: missing tiles, checksums that do not match, chunks that
+// do not decode, a hash that is not the map's. Used by `verify` and by tests.
 #pragma once
 
 #include <cstdint>

@@ -106,20 +106,24 @@ struct wide_exponential {
     double_double<T> excess;
 };
 
-/// Taylor series of e^r - 1 on |r| <= ln 2 / 32, then four doublings (1 + e)^2 - 1 = e (2 + e).
+/// e^x - 1 for |x| <= 0.36: Taylor series at x / 16, then four doublings (1 + e)^2 - 1 = e (2 + e).
 template <class T>
-HOPSCOTCH_DEVICE inline wide_exponential<T> reduce_wide_exponential(const double_double<T>& x) {
+HOPSCOTCH_DEVICE inline double_double<T> small_expm1(const double_double<T>& x) {
     using wide = double_double<T>;
-    const T turns = nearest(x.high * T(0x1.71547652b82fep+0));
-    const T n = select(turns == turns, turns, T(0.0));
-    const wide remainder = reduced(x, n, ln2_parts::high, ln2_parts::low, 0x1.7b57a079a1934p-111,
-                                   -0x1.ace93a4ebe5d1p-165);
-    const wide r = scaled(remainder, T(0.0625));
+    const wide r = scaled(x, T(0.0625));
     wide series = inverse_factorial<T>(15);
     for (int k = 14; k >= 2; --k) series = series * r + inverse_factorial<T>(k);
     wide excess = r + r * r * series;
     for (int doubling = 0; doubling < 4; ++doubling) excess = excess * (excess + wide(2.0));
-    return {n, excess};
+    return excess;
+}
+
+template <class T>
+HOPSCOTCH_DEVICE inline wide_exponential<T> reduce_wide_exponential(const double_double<T>& x) {
+    const T turns = nearest(x.high * T(0x1.71547652b82fep+0));
+    const T n = select(turns == turns, turns, T(0.0));
+    return {n, small_expm1(reduced(x, n, ln2_parts::high, ln2_parts::low, 0x1.7b57a079a1934p-111,
+                                   -0x1.ace93a4ebe5d1p-165))};
 }
 
 /// \error  relative 1e-30 where the result's low part is normal (above 1e-290)
@@ -146,14 +150,12 @@ HOPSCOTCH_DEVICE inline double_double<T> expm1(const double_double<T>& x) {
     return select(is_middle, select(e.n == T(0.0), e.excess, result), exp(x) - wide(1.0));
 }
 
-/// log(1 + f) for f above -0.3 and below 0.5: one Newton step on e^y from the double result.
+/// log(1 + f) for f in [-0.293, 0.415]: one Newton step on e^y from the double result.
 template <class T>
-HOPSCOTCH_DEVICE inline double_double<T> wide_log1p_kernel(const double_double<T>& f) {
+HOPSCOTCH_DEVICE inline double_double<T> small_log1p(const double_double<T>& f) {
     using wide = double_double<T>;
     const wide start(log1p(f.high), T(0.0));
-    const wide excess =
-        reduce_wide_exponential(-start).excess;  // n = 0 up to 0.34, below by choice
-    const wide error = f + (wide(1.0) + f) * excess;
+    const wide error = f + (wide(1.0) + f) * small_expm1(-start);
     return start + (error - scaled(error * error, T(0.5)));
 }
 
@@ -168,7 +170,7 @@ HOPSCOTCH_DEVICE inline double_double<T> log(const double_double<T>& x) {
     const T half = floor(n * T(0.5));
     const wide m = scaled(scaled(inside, power_of_two(-half)), power_of_two(half - n));
     const wide result =
-        wide(n, T(0.0)) * mathematical_constants<wide>::ln2() + wide_log1p_kernel(m - wide(1.0));
+        wide(n, T(0.0)) * mathematical_constants<wide>::ln2() + small_log1p(m - wide(1.0));
     return select(ordinary, result, wide(log(x.high), T(0.0)));
 }
 
@@ -177,7 +179,7 @@ template <class T>
 HOPSCOTCH_DEVICE inline double_double<T> log1p(const double_double<T>& x) {
     using wide = double_double<T>;
     const auto is_small = (x.high > T(-0.29)) & (x.high < T(0.41));
-    const wide small_result = wide_log1p_kernel(select(is_small, x, wide(0.0)));
+    const wide small_result = small_log1p(select(is_small, x, wide(0.0)));
     return select(is_small, small_result, log(wide(1.0) + x));
 }
 

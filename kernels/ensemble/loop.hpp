@@ -7,6 +7,8 @@
 #include "kernels/ensemble/request.hpp"
 #include "kernels/lanes/lane.hpp"
 
+#include <type_traits>
+
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
 /// A trajectory and what the loop itself keeps of it. Only Real members, so that a lane is a column of
@@ -74,7 +76,7 @@ class ensemble {
         Real columns[most_columns];
         Real parameters[most_parameters];
         for (int lane = 0; lane < width; ++lane) {
-            fresh_cells_[lane] = next_cell_ + static_cast<std::uint64_t>(lane < n ? lane : 0);
+            fresh_cells_[lane] = next_cell_ + static_cast<std::uint64_t>(lane);  // beyond n: not written
         }
         load(columns, request_.columns, most_columns);
         load(parameters, request_.parameters, most_parameters);
@@ -114,8 +116,14 @@ class ensemble {
                 columns[c] = Real(source[c].values[0]);
                 continue;
             }
+            // the cells of a pack follow each other: one division for all of them
+            std::uint64_t index = source[c].index(fresh_cells_[0]);
+            std::uint64_t within = fresh_cells_[0] % source[c].stride;
             for (int lane = 0; lane < width; ++lane) {
-                lanes_of(columns[c])[lane] = source[c].at(fresh_cells_[lane]);
+                lanes_of(columns[c])[lane] = source[c].values[index];
+                if (++within < source[c].stride) continue;
+                within = 0;
+                if (++index == source[c].size) index = 0;
             }
         }
     }
@@ -184,10 +192,7 @@ class ensemble {
         at.ended = select(labelled, code_of<Real>(outcome::attracted),
                           select(full & (at.ended == zero), at_limit, at.ended));
         if (any(finished)) {
-            const Real flags = select(finished, one, zero);
-            for (int lane = 0; lane < width; ++lane) {
-                if (lanes_of(flags)[lane] > 0.0) write(at, lane, cells[lane]);
-            }
+            write(at, cells, select(finished, one, zero));
             at.busy = select(finished, zero, at.busy);
         }
     }
@@ -210,25 +215,44 @@ class ensemble {
         }
     }
 
-    HOPSCOTCH_DEVICE void write(const state& at, int lane, std::uint64_t cell) const {
+    template <int Size>
+    HOPSCOTCH_DEVICE static bool is_wanted(double* const (&layers)[Size]) {
+        for (const double* layer : layers) {
+            if (layer != nullptr) return true;
+        }
+        return false;
+    }
+
+    /// Writes the results of the lanes flagged, layer by layer.
+    HOPSCOTCH_DEVICE void write(const state& at, const std::uint64_t* cells, const Real& flags) const {
         const ensemble_request& to = request_;
-        const auto value = [lane](const Real& field) { return lanes_of(field)[lane]; };
-        if (to.label) to.label[cell] = static_cast<std::int16_t>(value(at.label));
-        if (to.outcome) to.outcome[cell] = static_cast<std::uint8_t>(value(at.ended));
-        if (to.returns) to.returns[cell] = static_cast<std::uint32_t>(value(at.returns));
-        if (to.events) to.events[cell] = static_cast<std::uint32_t>(value(at.motion.events));
-        if (to.time) to.time[cell] = value(at.motion.time);
-        if (to.state[0]) {
+        int lanes[width];
+        int n = 0;
+        for (int lane = 0; lane < width; ++lane) {
+            lanes[n] = lane;
+            n += lanes_of(flags)[lane] > 0.0 ? 1 : 0;
+        }
+        const auto put = [&](auto* layer, const Real& field) {
+            if (layer == nullptr) return;
+            using number = std::remove_reference_t<decltype(*layer)>;
+            for (int i = 0; i < n; ++i) {
+                layer[cells[lanes[i]]] = static_cast<number>(lanes_of(field)[lanes[i]]);
+            }
+        };
+        put(to.label, at.label);
+        put(to.outcome, at.ended);
+        put(to.returns, at.returns);
+        put(to.events, at.motion.events);
+        put(to.time, at.motion.time);
+        if (is_wanted(to.state)) {
             Real columns[most_columns];
             Model::read_state(at.motion, to.end_section, columns);
-            for (int c = 0; c < most_columns && to.state[c]; ++c) to.state[c][cell] = value(columns[c]);
+            for (int c = 0; c < most_columns; ++c) put(to.state[c], columns[c]);
         }
-        if (to.wants_extras()) {
+        if (is_wanted(to.extras)) {
             Real extras[most_extras];
             Model::read_extras(at.motion, extras);
-            for (int e = 0; e < most_extras; ++e) {
-                if (to.extras[e]) to.extras[e][cell] = value(extras[e]);
-            }
+            for (int e = 0; e < most_extras; ++e) put(to.extras[e], extras[e]);
         }
     }
 };

@@ -57,13 +57,6 @@ struct ensemble_request {
     double* time = nullptr;
     double* state[most_columns] = {};
     double* extras[most_extras] = {};
-
-    constexpr bool wants_extras() const {
-        for (const double* extra : extras) {
-            if (extra != nullptr) return true;
-        }
-        return false;
-    }
 };
 
 /// How full the lanes were: steps that advanced a trajectory over steps issued.

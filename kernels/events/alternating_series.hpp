@@ -7,9 +7,10 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
-/// Terms that make the nested sum exact to rounding for 0 <= y <= 1 and d_n >= 2 n (2 n + 3).
+/// Terms that make the nested sum exact to rounding where y <= 1 and d_n = (2 n + 2)(2 n + 3) or more, or
+/// y <= 1/4 and d_n = 2 n (2 n + 3): the first one left out is 5e-17 for double.
 template <class Real>
-inline constexpr int series_terms = lane_traits<Real>::rounding > 0x1p-60    ? 9
+inline constexpr int series_terms = lane_traits<Real>::rounding > 0x1p-60    ? 7
                                     : lane_traits<Real>::rounding > 0x1p-110 ? 15
                                                                              : 26;
 

@@ -10,6 +10,9 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
+template <class Real>
+concept without_derivatives = std::same_as<primal_of<Real>, Real>;
+
 /// The converged root as a Real that carries derivatives.
 ///
 /// \param root      root of the primal residual, converged
@@ -17,9 +20,9 @@ namespace hopscotch::inline HOPSCOTCH_TARGET {
 ///                  zero
 /// \param slope     primal derivative of the residual with respect to the root, not zero
 /// \return          primal value exactly `root`; derivatives -residual' / slope
-template <class Real>
-requires std::same_as<primal_of<Real>, Real> HOPSCOTCH_DEVICE inline Real implicit_root(
-    const primal_of<Real>& root, const Real& /*residual*/, const primal_of<Real>& /*slope*/) {
+template <without_derivatives Real>
+HOPSCOTCH_DEVICE inline Real implicit_root(const primal_of<Real>& root, const Real& /*residual*/,
+                                           const primal_of<Real>& /*slope*/) {
     return root;
 }
 

@@ -6,14 +6,16 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
-/// table[index], lane-wise. \param index integral, within the table
+/// table[index], lane-wise. A pack gathers.
+///
+/// \param index  integral, within the table
 template <binary64_lane Real, int Size>
 HOPSCOTCH_DEVICE inline Real lookup(const double (&table)[Size], const Real& index) {
-    Real result;
-    const double* at = reinterpret_cast<const double*>(&index);
-    double* to = reinterpret_cast<double*>(&result);
-    for (int lane = 0; lane < width_of<Real>; ++lane) to[lane] = table[static_cast<int>(at[lane])];
-    return result;
+    if constexpr (width_of<Real> > 1) {
+        return gather(static_cast<const double*>(table), index);
+    } else {
+        return table[static_cast<int>(index)];
+    }
 }
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

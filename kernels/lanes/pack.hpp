@@ -213,6 +213,18 @@ struct pack {
     }
 };
 
+/// table[index], lane by lane.
+template <int Registers>
+inline pack<Registers> gather(const double* table, const pack<Registers>& index) {
+    return pack<Registers>::each([&](int i) -> simd_register {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+        return _mm512_i64gather_pd(_mm512_cvttpd_epi64(index.part[i]), table, 8);
+#else
+        return _mm256_i32gather_pd(table, _mm256_cvttpd_epi32(index.part[i]), 8);
+#endif
+    });
+}
+
 /// One bit per lane of a register.
 inline unsigned bits_of(const simd_mask& mask) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)

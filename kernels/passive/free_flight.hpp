@@ -177,7 +177,9 @@ HOPSCOTCH_DEVICE inline contact_search<Real> first_contact(const free_flight<Dam
         from = select(out_of_reach, fma(skipped, half_period, first_extremum), to);
         segment = select(out_of_reach, skipped, segment) + one;
         bend = flow.gap_curvature(from);
-        searching = searching & !now & (from <= last_time);
+        // beyond 1e16 time no longer advances, beyond 1e154 squares overflow: no search comes to an end
+        const mask_of<Real> advances = fma(segment, half_period, first_extremum) > from;
+        searching = searching & !now & advances & (from <= last_time) & (last_time < Real(1e300));
     }
     return {time, found};
 }

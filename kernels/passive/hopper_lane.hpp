@@ -50,22 +50,6 @@ HOPSCOTCH_DEVICE inline Real lift_off_speed(const hopper_lane<Real>& lane) {
     return lane.centre + (lane.centre_low + lane.beta);
 }
 
-/// Index k of the cell (k pi, (k + 1) pi] that holds alpha >= 0; decided with the low part of pi (H5).
-template <class Real>
-HOPSCOTCH_DEVICE inline Real cell_of(Real alpha) {
-    Real k = floor(alpha / pi<Real>());
-    const auto beyond = [&](Real turns) {  // alpha - turns * pi without cancellation error
-        if constexpr (binary64_lane<Real>) {
-            return fma(-turns, Real(2.0 * half_pi_parts::middle), fma(-turns, pi<Real>(), alpha));
-        } else {
-            return alpha - turns * pi<Real>();
-        }
-    };
-    k = select(beyond(k) <= Real(0.0), k - Real(1.0), k);
-    k = select(beyond(k + Real(1.0)) > Real(0.0), k + Real(1.0), k);
-    return larger(k, Real(0.0));
-}
-
 /// Moves the lane's cell data to cell k, for the lanes wanted; beta is left to the caller.
 template <class Real>
 HOPSCOTCH_DEVICE inline void enter_cell(hopper_lane<Real>& lane, Real k, mask_of<Real> wanted) {

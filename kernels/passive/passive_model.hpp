@@ -153,10 +153,17 @@ struct model {
     HOPSCOTCH_DEVICE static progress<Real> begin(lane<Real>& lane, int section, const Real* columns,
                                                  const Real* parameter, const int*, Watch& watch) {
         lane = lane_with(parameter);
-        if (section == 0) return begin_at_lift_off(lane, columns[0]);
         reporter<Coordinates, Watch> report{watch};
-        return begin_anywhere<typename variant_type<Variant>::type>(
-            lane, Coordinates::template read<Real>(columns, parameter[mass_ratio]), report);
+        progress<Real> done =
+            section == 0 ? begin_at_lift_off(lane, columns[0])
+                         : begin_anywhere<typename variant_type<Variant>::type>(
+                               lane, Coordinates::template read<Real>(columns, parameter[mass_ratio]),
+                               report);
+        const mask_of<Real> has_numbers = is_finite(lane.inverse_mass) & is_finite(lane.restitution) &
+                                          is_finite(lane.damping) & is_finite(lane.increment);
+        done.returned = done.returned & has_numbers;
+        done.ended = select(has_numbers, done.ended, code_of<Real>(outcome::not_finite));
+        return done;
     }
 
     template <int Variant, class Real, class Watch>

@@ -107,7 +107,7 @@ HOPSCOTCH_DEVICE inline Real least_escaping_kappa(Real centre) {
 
 /// D(x) = (alpha^2 - alpha*_k^2) / W falls at least up to this distance from alpha*_k, for every k: an orbit
 /// there that is mapped above alpha*_k proves the same for everything between. Its minimum lies at
-/// 0.721 (k = 1) down to 0.5278 (k -> infinity). Tested for k = 1 ... 200.
+/// 0.721 (k = 1) down to 0.5278 (k -> inf). Tested for k = 1 ... 200.
 inline constexpr double falling_part = 0.52;
 
 /// Starts the next flight of the lanes wanted from the ground.
@@ -219,7 +219,8 @@ HOPSCOTCH_DEVICE inline progress<Real> land(hopper_lane<Real>& lane, const landi
     lane.bounces = select(counts, lane.bounces + one, lane.bounces);
 
     Real ended = zero;
-    const mask_of<Real> was_lift_off = decided;
+    // decided means contact from the start in a flight start, which proves nothing about its lift-off
+    const mask_of<Real> was_lift_off = decided & !(lane.from_flight > zero);
     const launch<Real> from = lane.flight;
     const Real cell = lane.cell;
     const Real old_beta = lane.beta;

@@ -1,11 +1,14 @@
-// A model that exists only in the host's tests: its tables exercise every kind of parameter, column and
-// option, and its "kernel" is a plain loop whose results the tests can state in closed form.
+// A model that exists only in the host's tests: its tables exercise every kind of parameter, column
+// and option, and its "kernel" is a plain loop whose results the tests can state in closed form.
 #pragma once
 
+#include "analysis/orbit/orbit_functions.hpp"
 #include "kernels/contract/entry.hpp"
 
 #include <array>
 #include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace hopscotch::fake {
@@ -43,50 +46,115 @@ inline std::string_view refusal(const double* numbers, const int* choices) {
 /// Called once per kernel call, for tests that slow down, interrupt or count.
 inline std::function<void()> on_call;
 
-/// height -> gain * height + offset until it passes 1000 (fell) or the returns are done. With labels:
-/// below 1 is attractor 1, from 10 on attractor 2, in between undecided until the returns are spent.
+/// One orbit of the fake model and where it ended.
+struct flight {
+    outcome end = outcome::ok;
+    int label = 0;
+    std::uint32_t returns = 0;
+    double height = 0.0;
+    double speed = 0.0;
+};
+
+/// height -> gain * height + offset until it passes 1000 (fell), enters a trap, or the returns are
+/// done.
+inline flight fly(int section, const double* column, const double* parameter, std::uint32_t returns,
+                  decision decided_by, std::span<const trap_interval> traps) {
+    flight at;
+    at.height = column[0];
+    at.speed = section == 1 ? 0.0 : column[1];
+    if (section == 0 && !apex_columns[0].valid.holds(at.height)) at.end = outcome::invalid_start;
+    while (at.end == outcome::ok && at.returns < returns) {
+        at.height = parameter[0] * at.height + parameter[1];
+        at.speed += 1.0;
+        ++at.returns;
+        if (at.height > 1000.0) at.end = outcome::fell;
+        if (decided_by == decision::returns) continue;
+        for (const trap_interval& trap : traps) {
+            if (at.height < trap.lowest || at.height > trap.highest) continue;
+            at.label = trap.label;
+            at.end = outcome::attracted;
+        }
+    }
+    if (decided_by != decision::returns && at.end == outcome::ok) at.end = outcome::budget;
+    return at;
+}
+
 inline lane_statistics run(const ensemble_request& request) {
     if (on_call) on_call();
     lane_statistics lanes;
+    const auto n_traps = static_cast<std::size_t>(request.n_traps);
     for (std::uint64_t cell = 0; cell < request.n_cells; ++cell) {
-        const bool is_launch = request.section == 1;
-        double height = request.columns[0].at(cell);
-        double speed = is_launch ? 0.0 : request.columns[1].at(cell);
-        const double gain = request.parameters[0].at(cell);
-        const double offset = request.parameters[1].at(cell);
-        const bool is_valid = apex_columns[0].valid.holds(height) || is_launch;
-        outcome end = is_valid ? outcome::ok : outcome::invalid_start;
-        std::int16_t label = 0;
-        std::uint32_t returns = 0;
-        while (end == outcome::ok && returns < request.max_returns) {
-            ++lanes.issued;
-            ++lanes.useful;
-            height = gain * height + offset;
-            speed += 1.0;
-            ++returns;
-            if (height > 1000.0) end = outcome::fell;
-            if (request.decided_by == decision::returns) continue;
-            for (int trap = 0; trap < request.n_traps; ++trap) {
-                const double point = request.trap_point.at(cell);
-                const auto first = static_cast<std::size_t>(point) * static_cast<std::size_t>(request.n_traps);
-                const trap_interval& interval = request.traps[first + static_cast<std::size_t>(trap)];
-                if (height < interval.lowest || height > interval.highest) continue;
-                label = static_cast<std::int16_t>(interval.label);
-                end = outcome::attracted;
-            }
+        double column[2]{};
+        double parameter[3]{};
+        for (int c = 0; c < (request.section == 1 ? 1 : 2); ++c)
+            column[c] = request.columns[c].at(cell);
+        for (int p = 0; p < 3; ++p) parameter[p] = request.parameters[p].at(cell);
+        std::span<const trap_interval> traps;
+        if (n_traps > 0) {
+            traps = {
+                request.traps + static_cast<std::size_t>(request.trap_point.at(cell)) * n_traps,
+                n_traps};
         }
-        if (request.decided_by != decision::returns && end == outcome::ok) end = outcome::budget;
-        if (request.label != nullptr) request.label[cell] = label;
-        if (request.outcome != nullptr) request.outcome[cell] = static_cast<std::uint8_t>(end);
-        if (request.returns != nullptr) request.returns[cell] = returns;
-        if (request.events != nullptr) request.events[cell] = 2 * returns;
-        if (request.time != nullptr) request.time[cell] = 0.25 * returns;
-        if (request.state[0] != nullptr) request.state[0][cell] = height;
-        if (request.state[1] != nullptr) request.state[1][cell] = speed;
-        if (request.extras[0] != nullptr) request.extras[0][cell] = returns;
+        const flight at =
+            fly(request.section, column, parameter, request.max_returns, request.decided_by, traps);
+        lanes.issued += at.returns;
+        lanes.useful += at.returns;
+        if (request.label) request.label[cell] = static_cast<std::int16_t>(at.label);
+        if (request.outcome) request.outcome[cell] = static_cast<std::uint8_t>(at.end);
+        if (request.returns) request.returns[cell] = at.returns;
+        if (request.events) request.events[cell] = 2 * at.returns;
+        if (request.time) request.time[cell] = 0.25 * at.returns;
+        if (request.state[0]) request.state[0][cell] = at.height;
+        if (request.state[1]) request.state[1][cell] = at.speed;
+        if (request.extras[0]) request.extras[0][cell] = at.returns;
     }
     return lanes;
 }
+
+/// Single orbits. "dd" marks what it was given, so that tests see which texts arrive; with labels
+/// it can be told to disagree, and mp50 to agree or not.
+inline double dd_disagrees_above = unbounded;
+inline double mp50_disagrees_above = unbounded;
+
+inline orbit_answer orbit(const orbit_row& row, double disagrees_above) {
+    std::vector<double> column;
+    std::vector<double> parameter;
+    for (const std::string& text : row.columns) column.push_back(std::stod(text));
+    for (const std::string& text : row.parameters) parameter.push_back(std::stod(text));
+    const flight at =
+        fly(row.section, column.data(), parameter.data(), row.returns, row.decided_by, row.traps);
+    orbit_answer answer;
+    answer.end = at.end;
+    answer.label = at.label + (column[0] > disagrees_above ? 1 : 0);
+    answer.returns = at.returns;
+    answer.events = 2 * at.returns;
+    answer.time = "0.25";
+    const bool is_shown = at.end != outcome::invalid_start;
+    answer.columns = {is_shown ? "H" + row.columns[0] : "", is_shown ? "S" : ""};
+    answer.extras = {"G" + row.parameters[0]};
+    if (row.derivative) answer.derivative = {"1", "0", "0", "nan"};
+    return answer;
+}
+inline orbit_answer run_double(const orbit_row& row) { return orbit(row, unbounded); }
+inline orbit_answer run_dd(const orbit_row& row) { return orbit(row, dd_disagrees_above); }
+inline orbit_answer run_mp50(const orbit_row& row) { return orbit(row, mp50_disagrees_above); }
+
+inline orbit_answer trace(const orbit_row& row, orbit_observer& observer) {
+    struct still final : orbit_observer::sampler {
+        void state_at(double t, double* columns) const override {
+            columns[0] = 1.0 + t;
+            columns[1] = 2.0;
+        }
+    };
+    const double before[2]{1.0, 2.0};
+    const double after[2]{0.5, 2.0};
+    observer.phase("flight", 0.0, 0.25, still{});
+    observer.event("impact", 0.25, "flight", "ground", before, after, 0.125);
+    observer.phase("ground", 0.25, unbounded, still{});
+    return run_double(row);
+}
+inline constexpr orbit_functions orbits{run_double, run_dd, run_mp50, trace};
+inline constexpr const orbit_functions* orbit_table = &orbits;
 
 inline constexpr ensemble_function kernels[2]{run, run};
 inline constexpr const ensemble_function* kernel_table = kernels;
@@ -98,6 +166,7 @@ constexpr model_entry make_entry() {
     made.variant = variant;
     made.refusal = refusal;
     made.kernels[static_cast<int>(backend::scalar)] = &kernel_table;
+    made.orbits_table = &orbit_table;
     return made;
 }
 inline constexpr model_entry entry = make_entry();

@@ -62,10 +62,14 @@ inline double sample_value(std::size_t layer, const std::vector<double>& x) {
     const double wave = std::sin(5.0 * x[0]) * std::cos(4.0 * y) + 0.3 * x[0] * y;
     const int label = wave < -0.3 ? 0 : wave < 0.2 ? 1 : wave < 0.7 ? 2 : 3;
     switch (layer) {
-        case 0: return label;
-        case 1: return label == 0 ? 22 : 1;
-        case 2: return std::floor(20.0 + 50.0 * wave * wave);
-        default: return label == 0 ? std::numeric_limits<double>::quiet_NaN() : 3.0 + wave;
+        case 0:
+            return label;
+        case 1:
+            return label == 0 ? 22 : 1;
+        case 2:
+            return std::floor(20.0 + 50.0 * wave * wave);
+        default:
+            return label == 0 ? std::numeric_limits<double>::quiet_NaN() : 3.0 + wave;
     }
 }
 

@@ -34,7 +34,8 @@ TEST(grid, edges_samples_the_very_end_points) {
 }
 
 TEST(grid, centres_are_the_nearest_doubles_to_the_exact_ones) {
-    // 0.1 * (2 i + 1) / 20 in decimal, i = 0, 7, 9: written out, so correctly rounded by the compiler
+    // 0.1 * (2 i + 1) / 20 in decimal, i = 0, 7, 9: written out, so correctly rounded by the
+    // compiler
     const scene_axis axis = axis_of(0.0, 0.1, 10);
     EXPECT_EQ(value_of(axis, 0), 0.005);
     EXPECT_EQ(value_of(axis, 9), 0.095);
@@ -73,7 +74,8 @@ cells = 3
 speed = 7
 [question]
 kind = "return_map"
-)", "s.toml", {}, fake::models());
+)",
+                                    "s.toml", {}, fake::models());
     EXPECT_EQ(coordinates_of(scene, 4), (std::vector<std::uint64_t>{1, 1}));
     const cell_start start = start_of(scene, coordinates_of(scene, 5));
     EXPECT_EQ(start.columns, (std::vector<double>{2.5, 7.0}));

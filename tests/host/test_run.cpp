@@ -1,8 +1,9 @@
-// The run of a map: its numbers do not depend on threads, tiles or interruptions; what is finished is
-// never computed twice; signals and time limits leave a run that can be taken up again.
+// The run of a map: its numbers do not depend on threads, tiles or interruptions; what is finished
+// is never computed twice; signals and time limits leave a run that can be taken up again.
 #include "host/run/attributes.hpp"
 #include "host/run/estimate.hpp"
 #include "host/run/run_map.hpp"
+#include "host/run/stop_condition.hpp"
 #include "host/run/summary.hpp"
 #include "host/scene/grid.hpp"
 #include "host/store/map_reader.hpp"
@@ -46,7 +47,8 @@ tile = [16, 16]
 layers = ["label", "outcome", "returns", "period", "last_height", "speed", "time", "bounces"]
 )";
 
-/// Attractor 1 below 0.5; attractor 2 above 10 times the gain, so that traps differ between columns.
+/// Attractor 1 below 0.5; attractor 2 above 10 times the gain, so that traps differ between
+/// columns.
 label_plan plan_of(const scene& scene) {
     label_plan plan;
     plan.decided_by = decision::intervals;
@@ -67,7 +69,7 @@ label_plan plan_of(const scene& scene) {
 }
 
 class run_of_a_map : public ::testing::Test {
-  protected:
+protected:
     void SetUp() override {
         const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
         folder_ = std::filesystem::temp_directory_path() /
@@ -202,7 +204,8 @@ TEST_F(run_of_a_map, begins_no_tile_that_would_outlast_the_walltime) {
     EXPECT_FALSE(report.is_finished);
     EXPECT_GT(report.n_missing, 0u);
     EXPECT_LT(report.n_missing, report.n_tiles);
-    EXPECT_LT(seconds.count(), 0.4);  // 12 tiles of 30 ms would take 0.36 s; allows a loaded machine
+    EXPECT_LT(seconds.count(),
+              0.4);  // 12 tiles of 30 ms would take 0.36 s; allows a loaded machine
 }
 
 TEST_F(run_of_a_map, a_failing_tile_leaves_the_finished_ones) {
@@ -248,6 +251,21 @@ TEST_F(run_of_a_map, hands_the_audit_finished_tiles_and_stores_its_words) {
     const run_report report = run_map(read(), choices("map.h5"), hooks);
     EXPECT_EQ(map_reader(report.file).attribute("audit_mislabelled"), "0");
     EXPECT_NE(text_of(read(), report).find("audit_mislabelled"), std::string::npos);
+}
+
+TEST_F(run_of_a_map, interrupted_during_the_audit_keeps_every_tile) {
+    run_hooks hooks{plan_of, [](const scene&, const label_plan&, const map_run&) -> attribute_list {
+                        throw interruption();
+                    }};
+    const run_report first = run_map(read(), choices("map.h5"), hooks);
+    EXPECT_FALSE(first.is_finished);
+    EXPECT_EQ(first.n_missing, 0u);
+    run_choices again = choices("map.h5");
+    again.existing = if_exists::resume;
+    const run_report second = run_map(read(), again, {plan_of, {}});
+    EXPECT_TRUE(second.is_finished);
+    EXPECT_EQ(second.tally.cells, 0u);
+    EXPECT_FALSE(second.hash.empty());
 }
 
 TEST_F(run_of_a_map, an_estimate_counts_cells_tiles_and_bytes_without_touching_the_disk) {

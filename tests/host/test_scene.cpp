@@ -1,5 +1,5 @@
-// What a scene holds after reading: defaults, overrides, layers, tiles, and a fingerprint that changes
-// exactly with what decides the map's numbers.
+// What a scene holds after reading: defaults, overrides, layers, tiles, and a fingerprint that
+// changes exactly with what decides the map's numbers.
 #include "host/scene/grid.hpp"
 #include "host/scene/layers.hpp"
 #include "host/scene/suggest.hpp"
@@ -54,9 +54,9 @@ TEST(scene, fills_in_every_default) {
 }
 
 TEST(scene, overrides_replace_values_before_anything_is_checked) {
-    const scene scene = read({"grid.axis.0.cells=512", "grid.axis[1].max=5", "model.parameters.gain=2",
-                              "model.options.law=steep", "output.file=other.h5",
-                              "accuracy.max_events=1e6"});
+    const scene scene =
+        read({"grid.axis.0.cells=512", "grid.axis[1].max=5", "model.parameters.gain=2",
+              "model.options.law=steep", "output.file=other.h5", "accuracy.max_events=1e6"});
     EXPECT_EQ(scene.axes[0].cells, 512u);
     EXPECT_EQ(scene.axes[1].highest, 5.0);
     EXPECT_EQ(scene.parameters[0], 2.0);
@@ -66,8 +66,8 @@ TEST(scene, overrides_replace_values_before_anything_is_checked) {
 }
 
 TEST(scene, an_override_may_add_an_axis) {
-    const scene scene = read({"grid.axis.2.name=mass_ratio", "grid.axis.2.min=1", "grid.axis.2.max=2",
-                              "grid.axis.2.cells=3"});
+    const scene scene = read({"grid.axis.2.name=mass_ratio", "grid.axis.2.min=1",
+                              "grid.axis.2.max=2", "grid.axis.2.cells=3"});
     EXPECT_EQ(scene.axes.size(), 3u);
     EXPECT_EQ(scene.n_cells(), 96u);
 }
@@ -85,7 +85,8 @@ cells = 4
 [question]
 kind = "return_map"
 )";
-    EXPECT_EQ(read({}, text).output.layers, (std::vector<std::string>{"height", "speed", "outcome"}));
+    EXPECT_EQ(read({}, text).output.layers,
+              (std::vector<std::string>{"height", "speed", "outcome"}));
 }
 
 TEST(scene, a_state_layer_never_takes_the_name_of_an_axis) {
@@ -111,9 +112,10 @@ TEST(scene, tiles_of_small_maps_shrink_so_that_threads_can_share_them) {
 TEST(scene_fingerprint, stays_when_only_places_titles_and_shapes_change) {
     const std::string reference = read().fingerprint;
     EXPECT_EQ(reference.size(), 32u);
-    for (const char* same : {"output.file=x.h5", "output.compression=9", "output.tile=[2, 2]",
-                             "scene.title=other", "accuracy.audit_cells=7", "model.parameters.gain=0.5",
-                             "model.options.law=plain", "grid.section=apex", "grid.axis.0.max=2"}) {
+    for (const char* same :
+         {"output.file=x.h5", "output.compression=9", "output.tile=[2, 2]", "scene.title=other",
+          "accuracy.audit_cells=7", "model.parameters.gain=0.5", "model.options.law=plain",
+          "grid.section=apex", "grid.axis.0.max=2"}) {
         EXPECT_EQ(read({same}).fingerprint, reference) << same;
     }
 }
@@ -121,9 +123,10 @@ TEST(scene_fingerprint, stays_when_only_places_titles_and_shapes_change) {
 TEST(scene_fingerprint, changes_with_everything_that_decides_numbers) {
     const std::string reference = read().fingerprint;
     for (const char* other :
-         {"model.parameters.gain=0.50000000000000011", "model.options.law=steep", "grid.axis.0.max=3",
-          "grid.axis.0.cells=9", "grid.axis.0.edges=true", "start.speed=2", "question.returns=2",
-          "question.kind=basins", "accuracy.max_events=7", "accuracy.tolerance=1e-9"}) {
+         {"model.parameters.gain=0.50000000000000011", "model.options.law=steep",
+          "grid.axis.0.max=3", "grid.axis.0.cells=9", "grid.axis.0.edges=true", "start.speed=2",
+          "question.returns=2", "question.kind=basins", "accuracy.max_events=7",
+          "accuracy.tolerance=1e-9"}) {
         EXPECT_NE(read({other}).fingerprint, reference) << other;
     }
 }

@@ -1,5 +1,5 @@
-// Every mistake in a scene is one line that names the place, the key, the value, the reason and a way
-// out. The table below holds one bad scene per kind of mistake and the whole line it must give.
+// Every mistake in a scene is one line that names the place, the key, the value, the reason and a
+// way out. The table below holds one bad scene per kind of mistake and the whole line it must give.
 #include "host/scene/scene.hpp"
 #include "tests/host/fake_model.hpp"
 
@@ -38,7 +38,8 @@ TEST(scene_errors, a_mistake_in_the_model_is_named_with_line_reason_and_suggesti
     const bad_scene table[] = {
         {"syntax", "[model\n", "s.toml:1: not TOML ("},
         {"unknown table", "[modle]\n", "s.toml:1: modle (unknown key); model?"},
-        {"no model", "[model]\n", "s.toml:1: model.name (a scene names its model); one of fake_bouncer?"},
+        {"no model", "[model]\n",
+         "s.toml:1: model.name (a scene names its model); one of fake_bouncer?"},
         {"unknown model", "[model]\nname = \"fake_bounser\"\n",
          "s.toml:2: model.name = \"fake_bounser\" (no such model); fake_bouncer?"},
         {"type", "[model]\nname = 3\n", "s.toml:2: model.name = 3 (text in quotes is needed here)"},
@@ -55,13 +56,15 @@ TEST(scene_errors, a_mistake_in_parameters_or_options_is_named) {
         {"misspelt parameter", "[model.parameters]\ngian = 1\n",
          "s.toml:4: model.parameters.gian = 1 (unknown parameter of fake_bouncer); gain?"},
         {"parameter far off", "[model.parameters]\nzzz = 1\n",
-         "s.toml:4: model.parameters.zzz = 1 (unknown parameter of fake_bouncer); one of gain, offset, "
+         "s.toml:4: model.parameters.zzz = 1 (unknown parameter of fake_bouncer); one of gain, "
+         "offset, "
          "mass_ratio?"},
         {"out of range", "[model.parameters]\ngain = 0.0\n",
          "s.toml:4: model.parameters.gain = 0 (outside (0, 8])"},
         {"infinite where finite", "[model.parameters]\noffset = inf\n",
          "s.toml:4: model.parameters.offset = inf (outside (-inf, inf))"},
-        {"NaN", "[model.parameters]\ngain = nan\n", "s.toml:4: model.parameters.gain = nan (not a number)"},
+        {"NaN", "[model.parameters]\ngain = nan\n",
+         "s.toml:4: model.parameters.gain = nan (not a number)"},
         {"text", "[model.parameters]\ngain = \"1\"\n",
          "s.toml:4: model.parameters.gain = \"1\" (a number is needed here)"},
         {"misspelt option", "[model.options]\nlwa = \"plain\"\n",
@@ -75,7 +78,8 @@ TEST(scene_errors, a_mistake_in_parameters_or_options_is_named) {
 }
 
 TEST(scene_errors, infinity_is_legal_where_the_range_holds_it) {
-    const std::string text = std::string(head) + "[model.parameters]\nmass_ratio = inf\n" + axis + rest;
+    const std::string text =
+        std::string(head) + "[model.parameters]\nmass_ratio = inf\n" + axis + rest;
     EXPECT_EQ(message_of(text), "no error");
 }
 
@@ -88,10 +92,12 @@ TEST(scene_errors, a_mistake_in_the_grid_is_named) {
         {"misspelt key", "[[grid.axis]]\nname = \"height\"\nmn = 0.0\n",
          "s.toml:5: grid.axis[0].mn = 0 (unknown key); min?"},
         {"misspelt name", "[[grid.axis]]\nname = \"hieght\"\n",
-         "s.toml:4: grid.axis[0].name = \"hieght\" (no state column of section apex and no parameter of "
+         "s.toml:4: grid.axis[0].name = \"hieght\" (no state column of section apex and no "
+         "parameter of "
          "fake_bouncer); height?"},
         {"no cells", "[[grid.axis]]\nname = \"height\"\nmin = 0\nmax = 1\ncells = 0\n",
-         "s.toml:7: grid.axis[0].cells = 0 (an axis needs at least one cell); remove the axis to fix its "
+         "s.toml:7: grid.axis[0].cells = 0 (an axis needs at least one cell); remove the axis to "
+         "fix its "
          "value?"},
         {"cells missing", "[[grid.axis]]\nname = \"height\"\nmin = 0\nmax = 1\n",
          "s.toml:3: grid.axis[0].cells (how many cells the axis has); cells = 512?"},
@@ -103,18 +109,25 @@ TEST(scene_errors, a_mistake_in_the_grid_is_named) {
          "s.toml:6: grid.axis[0].max = 1 (not above min = 2); exchange min and max?"},
         {"infinite", "[[grid.axis]]\nname = \"height\"\nmin = 2\nmax = inf\ncells = 4\n",
          "s.toml:6: grid.axis[0].max = inf (the ends of an axis are finite)"},
-        {"logarithm", "[[grid.axis]]\nname = \"height\"\nmin = 0\nmax = 1\ncells = 4\nscale = \"log\"\n",
-         "s.toml:5: grid.axis[0].min = 0 (a logarithmic axis begins above zero); scale = \"linear\"?"},
-        {"scale", "[[grid.axis]]\nname = \"height\"\nmin = 0\nmax = 1\ncells = 4\nscale = \"lgo\"\n",
+        {"logarithm",
+         "[[grid.axis]]\nname = \"height\"\nmin = 0\nmax = 1\ncells = 4\nscale = \"log\"\n",
+         "s.toml:5: grid.axis[0].min = 0 (a logarithmic axis begins above zero); scale = "
+         "\"linear\"?"},
+        {"scale",
+         "[[grid.axis]]\nname = \"height\"\nmin = 0\nmax = 1\ncells = 4\nscale = \"lgo\"\n",
          "s.toml:8: grid.axis[0].scale = \"lgo\" (no such scale); log?"},
-        {"one edge", "[[grid.axis]]\nname = \"height\"\nmin = 0\nmax = 1\ncells = 1\nedges = true\n",
-         "s.toml:7: grid.axis[0].cells = 1 (an axis sampled at its edges needs two cells); edges = false?"},
+        {"one edge",
+         "[[grid.axis]]\nname = \"height\"\nmin = 0\nmax = 1\ncells = 1\nedges = true\n",
+         "s.toml:7: grid.axis[0].cells = 1 (an axis sampled at its edges needs two cells); edges = "
+         "false?"},
         {"parameter range", "[[grid.axis]]\nname = \"gain\"\nmin = 1\nmax = 9\ncells = 100\n",
          "s.toml:6: grid.axis[0].max = 9 (gain outside (0, 8])"},
         {"every start outside", "[[grid.axis]]\nname = \"height\"\nmin = -2\nmax = -1\ncells = 4\n",
          "s.toml:6: grid.axis[0].max = -1 (every height lies outside [0, inf))"},
-        {"too fine", "[[grid.axis]]\nname = \"height\"\nmin = 1\nmax = 1.0000000000000004\ncells = 9\n",
-         "s.toml:7: grid.axis[0].cells = 9 (more cells than distinct numbers between min and max); fewer "
+        {"too fine",
+         "[[grid.axis]]\nname = \"height\"\nmin = 1\nmax = 1.0000000000000004\ncells = 9\n",
+         "s.toml:7: grid.axis[0].cells = 9 (more cells than distinct numbers between min and max); "
+         "fewer "
          "cells?"},
     };
     for (const bad_scene& bad : table) {
@@ -125,20 +138,23 @@ TEST(scene_errors, a_mistake_in_the_grid_is_named) {
 TEST(scene_errors, the_same_number_from_two_places_is_refused) {
     EXPECT_EQ(message_of(std::string(head) + axis + axis + rest),
               "s.toml:9: grid.axis[1].name = \"height\" (an axis of that name is there already)");
-    const std::string both = std::string(head) +
-                             "[model.parameters]\ngain = 1\n[[grid.axis]]\nname = \"gain\"\nmin = 1\n"
-                             "max = 2\ncells = 3\n[start]\nheight = 1\nspeed = 0\n";
-    EXPECT_EQ(message_of(both), "s.toml:6: grid.axis[0].name = \"gain\" (set in model.parameters as "
-                                "well); remove it there or remove the axis?");
+    const std::string both =
+        std::string(head) +
+        "[model.parameters]\ngain = 1\n[[grid.axis]]\nname = \"gain\"\nmin = 1\n"
+        "max = 2\ncells = 3\n[start]\nheight = 1\nspeed = 0\n";
+    EXPECT_EQ(message_of(both),
+              "s.toml:6: grid.axis[0].name = \"gain\" (set in model.parameters as "
+              "well); remove it there or remove the axis?");
     EXPECT_EQ(message_of(std::string(head) + axis + "[start]\nheight = 1\nspeed = 0\n"),
               "s.toml:9: start.height = 1 (an axis as well); remove one of them?");
 }
 
 TEST(scene_errors, a_mistake_in_the_start_is_named) {
     const std::string scene = std::string(head) + axis;
-    EXPECT_EQ(message_of(scene + "[question]\nkind = \"return_map\"\n"),
-              "s.toml:1: start.speed (state column of section apex, neither axis nor start); [start] "
-              "speed = 0.0?");
+    EXPECT_EQ(
+        message_of(scene + "[question]\nkind = \"return_map\"\n"),
+        "s.toml:1: start.speed (state column of section apex, neither axis nor start); [start] "
+        "speed = 0.0?");
     EXPECT_EQ(message_of(scene + "[start]\nspede = 1\n"),
               "s.toml:9: start.spede = 1 (unknown state column of section apex); speed?");
     EXPECT_EQ(message_of(scene + "[start]\nspeed = inf\n"),
@@ -147,12 +163,14 @@ TEST(scene_errors, a_mistake_in_the_start_is_named) {
 
 TEST(scene_errors, a_mistake_in_question_accuracy_or_output_is_named) {
     const bad_scene table[] = {
-        {"no question", "", "s.toml:1: question.kind (a scene asks a question); one of basins, one_sided, "
-                            "period, return_map, steps_to_fall, lyapunov, orbit_diagram, branch?"},
+        {"no question", "",
+         "s.toml:1: question.kind (a scene asks a question); one of basins, one_sided, "
+         "period, return_map, steps_to_fall, lyapunov, orbit_diagram, branch?"},
         {"kind", "[question]\nkind = \"basin\"\n",
          "s.toml:11: question.kind = \"basin\" (no such question); basins?"},
         {"key of the kind", "[question]\nkind = \"basins\"\ntransient = 3\n",
-         "s.toml:12: question.transient = 3 (unknown key of the question basins); one of kind, returns?"},
+         "s.toml:12: question.transient = 3 (unknown key of the question basins); one of kind, "
+         "returns?"},
         {"returns", "[question]\nkind = \"basins\"\nreturns = 0\n",
          "s.toml:12: question.returns = 0 (must be at least 1)"},
         {"precision", "[question]\nkind = \"basins\"\n[accuracy]\nprecision = \"duble\"\n",
@@ -160,11 +178,13 @@ TEST(scene_errors, a_mistake_in_question_accuracy_or_output_is_named) {
         {"tolerance", "[question]\nkind = \"basins\"\n[accuracy]\ntolerance = 0\n",
          "s.toml:13: accuracy.tolerance = 0 (outside (0, 1)); 1e-10?"},
         {"layer", "[question]\nkind = \"return_map\"\n[output]\nlayers = [\"label\"]\n",
-         "s.toml:13: output.layers = [\"label\"] (no layer \"label\" for the question return_map on "
+         "s.toml:13: output.layers = [\"label\"] (no layer \"label\" for the question return_map "
+         "on "
          "fake_bouncer); one of outcome, returns, events, time, last_height, speed, bounces?"},
         {"misspelt layer", "[question]\nkind = \"basins\"\n[output]\nlayers = [\"lable\"]\n",
          "s.toml:13: output.layers = [\"lable\"] (no layer \"lable\" for the question basins on "
-         "fake_bouncer); \"label\", one of label, period, outcome, returns, events, time, last_height, "
+         "fake_bouncer); \"label\", one of label, period, outcome, returns, events, time, "
+         "last_height, "
          "speed, bounces?"},
         {"tile", "[question]\nkind = \"basins\"\n[output]\ntile = [4, 4]\n",
          "s.toml:13: output.tile = [4, 4] (the grid has 1 axes); one number per axis, as 8?"},
@@ -178,25 +198,31 @@ TEST(scene_errors, a_mistake_in_question_accuracy_or_output_is_named) {
 }
 
 TEST(scene_errors, the_models_own_refusal_is_asked_at_every_corner_of_the_parameter_axes) {
-    const std::string text = std::string(head) +
-                             "[model.options]\nlaw = \"steep\"\n[[grid.axis]]\nname = \"gain\"\nmin = 1\n"
-                             "max = 4\ncells = 3\n[start]\nheight = 1\nspeed = 0\n";
-    EXPECT_EQ(message_of(text), "s.toml:6: grid.axis[0].name = \"gain\" (the steep law needs gain <= 2 at "
-                                "gain = 3.5); another range?");
-    EXPECT_EQ(message_of(std::string(head) + "[model.parameters]\ngain = 3\n[model.options]\nlaw = "
-                                             "\"steep\"\n" + axis + "[start]\nspeed = 0\n"),
+    const std::string text =
+        std::string(head) +
+        "[model.options]\nlaw = \"steep\"\n[[grid.axis]]\nname = \"gain\"\nmin = 1\n"
+        "max = 4\ncells = 3\n[start]\nheight = 1\nspeed = 0\n";
+    EXPECT_EQ(message_of(text),
+              "s.toml:6: grid.axis[0].name = \"gain\" (the steep law needs gain <= 2 at "
+              "gain = 3.5); another range?");
+    EXPECT_EQ(message_of(std::string(head) +
+                         "[model.parameters]\ngain = 3\n[model.options]\nlaw = "
+                         "\"steep\"\n" +
+                         axis + "[start]\nspeed = 0\n"),
               "s.toml:4: model.parameters.gain = 3 (the steep law needs gain <= 2)");
 }
 
 TEST(scene_errors, overrides_are_reported_as_the_command_line) {
     const std::string good = std::string(head) + axis + rest;
     EXPECT_EQ(message_of(good, {"grid.axis.0.cells=0"}),
-              "command line: grid.axis[0].cells = 0 (an axis needs at least one cell); remove the axis to "
+              "command line: grid.axis[0].cells = 0 (an axis needs at least one cell); remove the "
+              "axis to "
               "fix its value?");
     EXPECT_EQ(message_of(good, {"model.parameters.gian=2"}),
               "command line: model.parameters.gian = 2 (unknown parameter of fake_bouncer); gain?");
-    EXPECT_EQ(message_of(good, {"grid.axis.7.cells=2"}),
-              "command line: grid.axis.7.cells = 2 (there are only 1 entries); an index from 0 to 1?");
+    EXPECT_EQ(
+        message_of(good, {"grid.axis.7.cells=2"}),
+        "command line: grid.axis.7.cells = 2 (there are only 1 entries); an index from 0 to 1?");
     EXPECT_EQ(message_of(good, {"cells"}),
               "command line: cells (an override has the form key=value); grid.axis.0.cells=512?");
     EXPECT_EQ(message_of(good, {"model.name.x=2"}),

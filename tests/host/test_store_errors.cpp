@@ -57,6 +57,26 @@ private:
     void (*before_)(int);
 };
 
+/// A file system of 256 KiB, where the test may mount one.
+class small_disk {
+public:
+    explicit small_disk(const std::filesystem::path& place) : place_(place) {
+        std::filesystem::create_directory(place);
+        is_there_ = ::mount("tmpfs", place.c_str(), "tmpfs", 0, "size=256k") == 0;
+    }
+    ~small_disk() {
+        if (is_there_) ::umount(place_.c_str());
+    }
+    small_disk(const small_disk&) = delete;
+    small_disk& operator=(const small_disk&) = delete;
+
+    bool is_there() const { return is_there_; }
+
+private:
+    std::filesystem::path place_;
+    bool is_there_ = false;
+};
+
 class store_errors : public testing::Test {
 protected:
     scratch_folder folder;
@@ -100,13 +120,32 @@ TEST_F(store_errors, another_scene_cannot_resume_a_run_or_take_its_map) {
     EXPECT_TRUE(says(message_of([&] { map_run(layout, other); }), "belongs to another scene"));
 }
 
+TEST_F(store_errors, tiles_of_another_scene_are_never_removed) {
+    run_options other = sample_options(map, if_exists::resume);
+    other.fingerprint = "another";
+    { put_tile(*std::make_unique<map_run>(layout, sample_options(map)), layout, 0); }
+    std::filesystem::remove(map_run::directory_of(map) / "run.h5");
+    EXPECT_TRUE(says(message_of([&] { map_run(layout, other); }), "a tile of another scene"));
+    const map_run run(layout, sample_options(map, if_exists::resume));
+    EXPECT_EQ(run.finished_tiles(), std::vector<std::uint64_t>{0});
+}
+
+TEST_F(store_errors, a_damaged_run_description_is_written_anew) {
+    { put_tile(*std::make_unique<map_run>(layout, sample_options(map)), layout, 0); }
+    std::filesystem::resize_file(map_run::directory_of(map) / "run.h5", 0);
+    const map_run run(layout, sample_options(map, if_exists::resume));
+    EXPECT_EQ(run.finished_tiles(), std::vector<std::uint64_t>{0});
+    ASSERT_EQ(run.notes().size(), 1U);
+    EXPECT_TRUE(says(run.notes()[0], "run.h5"));
+}
+
 TEST_F(store_errors, another_grid_cannot_resume_a_run) {
     { put_tile(*std::make_unique<map_run>(layout, sample_options(map)), layout, 0); }
-    EXPECT_TRUE(says(message_of([&] {
-                         map_run(sample_layout({64, 64}, {16, 16}),
-                                 sample_options(map, if_exists::resume));
-                     }),
-                     "another grid or tiles"));
+    EXPECT_TRUE(
+        says(message_of([&] {
+                 map_run(sample_layout({64, 64}, {16, 16}), sample_options(map, if_exists::resume));
+             }),
+             "another grid or tiles"));
 }
 
 TEST_F(store_errors, two_runs_on_one_directory_collide_with_a_clear_error) {
@@ -180,22 +219,17 @@ TEST_F(store_errors, a_full_disk_while_packing_keeps_every_tile) {
 
 TEST_F(store_errors, a_file_system_without_room_is_named_before_packing) {
     const std::filesystem::path small = folder / "small";
-    std::filesystem::create_directory(small);
-    if (::mount("tmpfs", small.c_str(), "tmpfs", 0, "size=256k") != 0) {
-        GTEST_SKIP() << "needs the right to mount a small file system";
-    }
-    {
-        map_run run(layout, sample_options(small / "map.h5"));
-        for (const std::uint64_t tile : run.missing_tiles()) put_tile(run, layout, tile);
-        std::ofstream(small / "ballast") << std::string(256 * 1024, 'x');
-        EXPECT_TRUE(says(message_of([&] { run.finish(sample_summary()); }),
-                         "No space left on device); free some space and go on with --resume?"));
-        EXPECT_TRUE(says(message_of([&] { put_tile(run, layout, 0); }), "No space left"));
-        std::filesystem::remove(small / "ballast");
-        run.finish(sample_summary());
-        EXPECT_TRUE(verify_file(small / "map.h5").empty());
-    }
-    ::umount(small.c_str());
+    const small_disk disk(small);
+    if (!disk.is_there()) GTEST_SKIP() << "needs the right to mount a small file system";
+    map_run run(layout, sample_options(small / "map.h5"));
+    for (const std::uint64_t tile : run.missing_tiles()) put_tile(run, layout, tile);
+    std::ofstream(small / "ballast") << std::string(256 * 1024, 'x');
+    EXPECT_TRUE(says(message_of([&] { run.finish(sample_summary()); }),
+                     "No space left on device); free some space and go on with --resume?"));
+    EXPECT_TRUE(says(message_of([&] { put_tile(run, layout, 0); }), "No space left"));
+    std::filesystem::remove(small / "ballast");
+    run.finish(sample_summary());
+    EXPECT_TRUE(verify_file(small / "map.h5").empty());
 }
 
 TEST_F(store_errors, a_folder_that_cannot_be_written_is_named) {

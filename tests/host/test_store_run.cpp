@@ -1,5 +1,5 @@
-// A map while it is computed: what survives, what is recomputed, and that the finished file is always
-// the same one.
+// A map while it is computed: what survives, what is recomputed, and that the finished file is
+// always the same one.
 #include "tests/host/sample_map.hpp"
 
 #include "host/store/atomic_file.hpp"

@@ -120,6 +120,14 @@ TEST(double_double, exponentials_and_logarithms_have_thirty_digits) {
                           source.dense(0.9999, 1.0001, 200)}) {
         EXPECT_LT(worst_relative_error(source, x, log_of_size), function_bound);
     }
+    // where the double's logarithm of the reduced argument is just about half of ln 2
+    for (const double power : {1.0, 2.0, 0x1p-30}) {
+        for (const double x : {0x1.6a09e667f3bcbp+0, 0x1.6a09e667f3bccp+0, 0x1.6a09e667f3bcdp+0,
+                               0x1.6a09e667f3bcep+0, 0x1.6a09e667f3bcfp+0}) {
+            EXPECT_LT(relative_error(log(wide(x * power)), log(real50(x * power))), function_bound);
+            EXPECT_LT(relative_error(exp(log(wide(x))), real50(x)), function_bound);
+        }
+    }
     for (const auto& x : {source.magnitudes(1e-9, 0.999, 400), source.dense(0.0, 9.0, 400)}) {
         EXPECT_LT(worst_relative_error(source, x, [](const auto& a) { return log1p(a); }),
                   function_bound);

@@ -1,0 +1,112 @@
+// The guaranteed first zero of a guard on one step of an integrated flow. The guard is a polynomial over the
+// whole step; a bound on its curvature gives steps that never pass a zero, so that two crossings in one step,
+// a touch, a zero at the end and a whole arc inside the first step are all seen.
+#pragma once
+
+#include "kernels/integrators/taylor.hpp"
+
+namespace hopscotch::inline HOPSCOTCH_TARGET::taylor {
+
+/// A guard's polynomial with its known zeros at t = 0 divided out. A guard that has just fired (or an arc
+/// that begins on its own guard) is exactly zero there; what is left is positive.
+///
+/// \param guard   positive while nothing happens, falls through zero at the event
+/// \param zeros   lane-wise 0, 1, 2 or 3: how many leading coefficients are zero by definition
+template <class Real>
+HOPSCOTCH_DEVICE inline series<Real> without_zeros(const series<Real>& guard, const Real& zeros) {
+    series<Real> result = guard;
+    for (int k = 1; k <= 3; ++k) {
+        const mask_of<Real> shifted = zeros >= Real(static_cast<double>(k));
+        if (!any(shifted)) break;
+        for (int n = 0; n < order<Real>; ++n) {
+            result.c[n] = select(shifted, result.c[n + 1], result.c[n]);
+        }
+        result.c[order<Real>] = select(shifted, Real(0.0), result.c[order<Real>]);
+    }
+    return result;
+}
+
+template <class Real>
+struct guard_search {
+    mask_of<Real> found;
+    mask_of<Real> unresolved;  // the search came to no decision
+    Real time;
+};
+
+/// Value and slope of a polynomial without derivatives.
+template <class Real>
+HOPSCOTCH_DEVICE inline value_and_slope<Real> value_slope(const series<Real>& a, const Real& t) {
+    Real value = a.c[order<Real>];
+    Real slope(0.0);
+    for (int n = order<Real> - 1; n >= 0; --n) {
+        slope = fma(slope, t, value);
+        value = fma(value, t, a.c[n]);
+    }
+    return {value, slope};
+}
+
+/// First time in [0, horizon] at which the guard is zero or below.
+///
+/// \param guard    from `without_zeros`; its value at 0 decides: <= 0 there gives time 0
+/// \param horizon  length of the step
+/// \param wanted   lanes to search
+/// \error  touching to rounding counts. Where guard >= 0, guard' and |guard''| <= L, nothing happens before
+///         (g' + sqrt(g'^2 + 2 L g)) / L. A lane not decided after 200 steps is `unresolved`; a guard
+///         that is not finite is not found.
+template <class Real>
+HOPSCOTCH_DEVICE inline guard_search<Real> first_zero(const series<Real>& guard,
+                                                      const primal_of<Real>& horizon,
+                                                      const mask_of<Real>& wanted) {
+    using plain = primal_of<Real>;
+    const plain zero(0.0);
+    const series<plain> g = primal_series(guard);
+    // bounds over the whole step: curvature, and how far the value can fall at all
+    plain curvature(0.0);
+    plain fall(0.0);
+    for (int n = order<Real>; n >= 1; --n) {
+        const double factor = static_cast<double>(n) * (n - 1);
+        if (n >= 2) curvature = fma(curvature, horizon, abs(g.c[n]) * plain(factor));
+        fall = fma(fall, horizon, abs(g.c[n]));
+    }
+    fall = fall * horizon;
+    const plain noise_now = plain(lane_traits<Real>::rounding * 4.0) * abs(g.c[0]);
+    const plain noise_rate = plain(lane_traits<Real>::rounding * 4.0) * (fall / horizon);
+    mask_of<Real> active = wanted & !(g.c[0] > fall);
+    plain t(0.0);
+    mask_of<Real> found = active & (g.c[0] <= zero);
+    active = active & (g.c[0] > zero);
+    if (any(active)) {
+        const plain settled(lane_traits<Real>::rounding * 4.0);
+        for (int i = 0; i < 200 && any(active); ++i) {
+            const value_and_slope<plain> at = value_slope(g, t);
+            const plain reach = larger(at.value, zero);
+            const plain root = sqrt(fma(at.slope, at.slope, plain(2.0) * curvature * reach));
+            // the smaller root of value + slope d - curvature d^2 / 2, without cancellation
+            const plain step = select(at.slope > zero, (at.slope + root) / curvature,
+                                      plain(2.0) * reach / (root - at.slope));
+            const plain next = t + step;
+            const plain noise = fma(noise_rate, t, noise_now);  // of the value at t
+            const mask_of<Real> touches =
+                (at.value <= noise) & (at.slope * at.slope <= plain(2.0) * curvature * noise);
+            const mask_of<Real> arrived =
+                active & ((at.value <= zero) | touches | (step <= settled * smaller(next, horizon)));
+            const mask_of<Real> passed = active & !arrived & !(next < horizon);
+            found = found | arrived;
+            t = select(active & !arrived & !passed, next, t);
+            active = active & !arrived & !passed;
+            // at the step's end itself nothing is left to bound
+            const mask_of<Real> at_end = passed & (value_slope(g, horizon).value <= zero);
+            t = select(at_end, horizon, t);
+            found = found | at_end;
+        }
+    }
+    if constexpr (std::same_as<plain, Real>) {
+        return {found, active, t};
+    } else {
+        const plain slope = value_slope(g, t).slope;
+        return {found, active,
+                implicit_root(t, evaluate(guard, t), select(slope == zero, infinity<plain>(), slope))};
+    }
+}
+
+}  // namespace hopscotch::inline HOPSCOTCH_TARGET::taylor

@@ -1,0 +1,118 @@
+// The one integrator of all flows without closed form: Taylor series of fixed order, one step per call,
+// lane by lane. The step's polynomial is its own dense output, and events are isolated on it over the whole
+// step (kernels/integrators/first_zero.hpp). A flow brings its right-hand side as recurrences on
+// coefficients; polynomial right-hand sides cost one Cauchy product per multiplication.
+//
+// Why a Taylor series and not an embedded Runge-Kutta pair of order 8. Steps per stance of the spring-mass
+// runner for a lift-off error of 1e-12 (models/slip.md, section 10): series of order 22 4-6, DOP853 12-16
+// with 12 right-hand sides each and three more for its dense output, which has order 7 only. Measured here
+// (linear spring, kt 2-12, one AVX-512 core, 8 lanes a register; CPU time per stance, median error):
+//   order 16, tolerance 2^-47: 11.1 steps, 1.6 us, 4e-16      order 24: 5.4 steps, 1.04 us, 6e-16
+//   order 20:                   7.1 steps, 1.4 us, 4e-16      order 28: 4.5 steps, 1.04 us, 1e-15
+//   order 22:                   6.1 steps, 1.04 us, 4e-16     order 22, 2^-40: 5.0 steps, 0.87 us, 7e-14
+// so full precision costs 20 % more than 1e-13, and the same code serves 31 and 50 digits by its order.
+#pragma once
+
+#include "kernels/elementary/elementary.hpp"
+#include "kernels/events/bracketed_root.hpp"
+#include "kernels/lanes/implicit_root.hpp"
+
+namespace hopscotch::inline HOPSCOTCH_TARGET::taylor {
+
+/// Order of the series: high enough that a step spans a good part of the radius of convergence at the
+/// arithmetic's own tolerance.
+template <class Real>
+inline constexpr int order = lane_traits<Real>::rounding > 0x1p-60    ? 22
+                             : lane_traits<Real>::rounding > 0x1p-110 ? 36
+                                                                      : 60;
+
+/// Local error that a step may make, relative to each variable's size: 2^-47 (7e-15) in double, 2^-95
+/// (2.5e-29) in double-double, 2^-170 (7e-52) in 50 digits.
+template <class Real>
+inline constexpr double default_tolerance = lane_traits<Real>::rounding > 0x1p-60    ? 0x1p-47
+                                            : lane_traits<Real>::rounding > 0x1p-110 ? 0x1p-95
+                                                                                     : 0x1p-170;
+
+/// Coefficients of t^0 ... t^order.
+template <class Real>
+struct series {
+    Real c[order<Real> + 1];
+};
+
+/// Coefficient n of the product a b.
+template <class Real>
+HOPSCOTCH_DEVICE inline Real product(const series<Real>& a, const series<Real>& b, int n) {
+    Real sum = a.c[0] * b.c[n];
+    for (int i = 1; i <= n; ++i) sum = fma(a.c[i], b.c[n - i], sum);
+    return sum;
+}
+
+/// Coefficient n of a^2.
+template <class Real>
+HOPSCOTCH_DEVICE inline Real square(const series<Real>& a, int n) {
+    if (n == 0) return a.c[0] * a.c[0];
+    Real sum = a.c[0] * a.c[n];
+    for (int i = 1; 2 * i < n; ++i) sum = fma(a.c[i], a.c[n - i], sum);
+    const Real twice = sum + sum;
+    return n % 2 == 0 ? fma(a.c[n / 2], a.c[n / 2], twice) : twice;
+}
+
+/// x / n for the recurrences a_n = x / n.
+template <class Real>
+HOPSCOTCH_DEVICE inline Real over(const Real& x, int n) {
+    if constexpr (lane_traits<Real>::rounding > 0x1p-60) {
+        return x * Real(1.0 / static_cast<double>(n));
+    } else {
+        return x / Real(static_cast<double>(n));
+    }
+}
+
+/// The polynomial at t.
+template <class Real, class Time>
+HOPSCOTCH_DEVICE inline Real evaluate(const series<Real>& a, const Time& t) {
+    const Real at(t);
+    Real sum = a.c[order<Real>];
+    for (int n = order<Real> - 1; n >= 0; --n) sum = fma(sum, at, a.c[n]);
+    return sum;
+}
+
+/// The same polynomial without derivatives.
+template <class Real>
+HOPSCOTCH_DEVICE inline series<primal_of<Real>> primal_series(const series<Real>& a) {
+    series<primal_of<Real>> result;
+    for (int n = 0; n <= order<Real>; ++n) result.c[n] = primal(a.c[n]);
+    return result;
+}
+
+/// Collects the tails of the series that a step carries and turns them into its length.
+template <class Real>
+class step_length {
+  public:
+    /// Takes account of a variable; its error is measured against floor + |value at the start|.
+    HOPSCOTCH_DEVICE void watch(const series<Real>& a, double floor = 0.25) {
+        const plain scale = plain(floor) + abs(primal(a.c[0]));
+        last_ = larger(last_, abs(primal(a.c[order<Real>])) / scale);
+        before_last_ = larger(before_last_, abs(primal(a.c[order<Real> - 1])) / scale);
+        doubtful_ = doubtful_ + (abs(primal(a.c[order<Real>])) + abs(primal(a.c[order<Real> - 1]))) * plain(0.0);
+    }
+
+    /// The longest step whose last two terms stay below the tolerance, at most `longest`; NaN where a
+    /// coefficient is not finite.
+    HOPSCOTCH_DEVICE primal_of<Real> length(const primal_of<Real>& tolerance,
+                                            const primal_of<Real>& longest) const {
+        const plain from_last = root(tolerance / last_, order<Real>);
+        const plain from_before = root(tolerance / before_last_, order<Real> - 1);
+        const plain shorter = smaller(from_before, from_last);
+        return select(shorter < longest, shorter, longest) + doubtful_;
+    }
+
+  private:
+    using plain = primal_of<Real>;
+    HOPSCOTCH_DEVICE static plain root(const plain& ratio, int n) { return exp(log(ratio) / plain(static_cast<double>(n))); }
+
+    plain last_ = plain(0.0);
+    plain before_last_ = plain(0.0);
+    plain doubtful_ = plain(0.0);  // 0, or NaN
+};
+
+}  // namespace hopscotch::inline HOPSCOTCH_TARGET::taylor

@@ -1,0 +1,65 @@
+// One integrator step of a pneumatic stance with friction, in the time s with dt = chi ds, where the
+// right-hand side is polynomial and a leg pressed to nothing is no singularity:
+//   chi' = chi v,  depth' = -chi v,  v' = eta - gamma chi v - g chi,  t' = chi.
+// Both the length chi and the depth below lift-off are carried, so that each keeps its relative accuracy.
+// Source: models/raibert_hopper.md section 3; Koditschek, Buehler 1991, (8).
+#pragma once
+
+#include "kernels/integrators/first_zero.hpp"
+#include "kernels/integrators/taylor.hpp"
+
+namespace hopscotch::inline HOPSCOTCH_TARGET::pneumatic {
+
+/// State of an arc.
+template <class Real>
+struct arc_state {
+    Real length, depth, velocity;
+};
+
+template <class Real>
+struct arc_series {
+    taylor::series<Real> length, depth, velocity, time;
+
+    /// The state a time t after the step's beginning, for `trace`.
+    arc_state<Real> at_time(const Real& t, const Real& end) const {
+        const auto rising = [&](const Real& s) {
+            auto at = taylor::value_slope(time, s);
+            at.value = at.value - t;
+            return at;
+        };
+        const Real s = bracketed_root<Real>(rising, {Real(0.0), end}, end * Real(0.5), end > Real(0.0));
+        return {taylor::evaluate(length, s), taylor::evaluate(depth, s), taylor::evaluate(velocity, s)};
+    }
+};
+
+template <class Real>
+HOPSCOTCH_DEVICE inline arc_series<Real> expand(const arc_state<Real>& from, const Real& stiffness,
+                                                const Real& friction, const Real& gravity) {
+    using taylor::over;
+    arc_series<Real> a;
+    a.length.c[0] = from.length;
+    a.depth.c[0] = from.depth;
+    a.velocity.c[0] = from.velocity;
+    a.time.c[0] = Real(0.0);
+    for (int n = 0; n < taylor::order<Real>; ++n) {
+        const int m = n + 1;
+        const Real drift = taylor::product(a.length, a.velocity, n);
+        const Real drag = fma(friction, drift, gravity * a.length.c[n]);
+        a.length.c[m] = over(drift, m);
+        a.depth.c[m] = -a.length.c[m];
+        a.velocity.c[m] = over(n == 0 ? stiffness - drag : -drag, m);
+        a.time.c[m] = over(a.length.c[n], m);
+    }
+    return a;
+}
+
+template <class Real>
+HOPSCOTCH_DEVICE inline primal_of<Real> step_of(const arc_series<Real>& a) {
+    using plain = primal_of<Real>;
+    taylor::step_length<Real> size;
+    size.watch(a.length, 0.0);  // relative, however short the leg
+    size.watch(a.velocity);
+    return size.length(plain(taylor::default_tolerance<Real>), plain(1e6));
+}
+
+}  // namespace hopscotch::inline HOPSCOTCH_TARGET::pneumatic
