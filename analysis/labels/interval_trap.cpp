@@ -1,46 +1,17 @@
 // Finds invariant intervals by sign changes on refined samples and bisection to the last bit.
 #include "analysis/labels/interval_trap.hpp"
 
+#include "analysis/labels/sampling.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace hopscotch {
 namespace {
 
-constexpr int n_geometric = 160;  // samples per side next to the base, from 1e-13 on
-constexpr int n_even = 800;       // samples over the rest of the branch
 constexpr int n_transient = 20000;
 constexpr int longest_period = 64;
 constexpr double periodic_distance = 1e-9;  // relative, with every proper divisor clearly away
-
-/// Bisects between `inside`, where the condition holds, and `outside`, where it does not; returns the
-/// last point that still holds.
-template <class Condition>
-double last_inside(double inside, double outside, const Condition& holds) {
-    for (int i = 0; i < 200; ++i) {
-        const double middle = inside + 0.5 * (outside - inside);
-        if (middle == inside || middle == outside) break;
-        (holds(middle) ? inside : outside) = middle;
-    }
-    return inside;
-}
-
-/// Points from `base` towards `end`: geometric next to the base, then even.
-std::vector<double> points_towards(double base, double end) {
-    std::vector<double> points;
-    const double length = end - base;
-    const double reach = std::min(0.1, std::abs(length));
-    for (int i = 0; i < n_geometric; ++i) {
-        const double exponent = 13.0 * (1.0 - static_cast<double>(i) / n_geometric);
-        points.push_back(base + std::copysign(reach * std::pow(10.0, -exponent), length));
-    }
-    for (int i = 1; i <= n_even; ++i) {
-        const double share = static_cast<double>(i) / n_even;
-        const double from = base + std::copysign(reach, length);
-        points.push_back(from + (end - from) * share);
-    }
-    return points;
-}
 
 /// The unstable fixed point left of the base, where added energy has put it; the base itself without.
 std::optional<double> lower_end(const return_map_samples& map, const map_branch& branch,

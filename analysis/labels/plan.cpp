@@ -2,12 +2,14 @@
 #include "analysis/labels/plan.hpp"
 
 #include "analysis/labels/interval_trap.hpp"
+#include "analysis/labels/one_sided.hpp"
 #include "host/scene/grid.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 namespace hopscotch {
@@ -115,24 +117,6 @@ std::vector<found_trap> traps_at(const scene& scene, std::size_t point,
     return found;
 }
 
-/// The parameter values of every parameter point, points in C order over the parameter axes.
-std::vector<std::vector<double>> parameter_points(const scene& scene,
-                                                  const std::vector<std::size_t>& axes) {
-    std::vector<std::vector<double>> points{scene.parameters};
-    for (const std::size_t axis : axes) {
-        const std::vector<double> values = values_of(scene.axes[axis]);
-        std::vector<std::vector<double>> product;
-        for (const auto& point : points) {
-            for (const double value : values) {
-                product.push_back(point);
-                product.back()[static_cast<std::size_t>(scene.axes[axis].index)] = value;
-            }
-        }
-        points = std::move(product);
-    }
-    return points;
-}
-
 attractor_row row_of(const found_trap& found, int label) {
     attractor_row row{.label = label, .name = found.name(), .period = found.trap.period};
     row.points = found.trap.points;
@@ -153,9 +137,7 @@ label_plan plan_by_intervals(const scene& scene) {
     plan.decided_by = decision::intervals;
     plan.died_label = 1;
     plan.point_columns = {std::string(scene.end_section().columns[0].name)};
-    for (std::size_t axis = 0; axis < scene.axes.size(); ++axis) {
-        if (scene.axes[axis].kind == axis_kind::parameter) plan.point_axes.push_back(axis);
-    }
+    plan.point_axes = parameter_axes(scene);
     const auto points = parameter_points(scene, plan.point_axes);
     std::vector<std::vector<found_trap>> found(points.size());
 #pragma omp parallel for schedule(dynamic)
@@ -197,16 +179,47 @@ label_plan plan_by_intervals(const scene& scene) {
 
 }  // namespace
 
+std::vector<std::vector<double>> parameter_points(const scene& scene,
+                                                  const std::vector<std::size_t>& axes) {
+    std::vector<std::vector<double>> points{scene.parameters};
+    for (const std::size_t axis : axes) {
+        const std::vector<double> values = values_of(scene.axes[axis]);
+        std::vector<std::vector<double>> product;
+        for (const auto& point : points) {
+            for (const double value : values) {
+                product.push_back(point);
+                product.back()[static_cast<std::size_t>(scene.axes[axis].index)] = value;
+            }
+        }
+        points = std::move(product);
+    }
+    return points;
+}
+
+std::vector<std::size_t> parameter_axes(const scene& scene) {
+    std::vector<std::size_t> axes;
+    for (std::size_t axis = 0; axis < scene.axes.size(); ++axis) {
+        if (scene.axes[axis].kind == axis_kind::parameter) axes.push_back(axis);
+    }
+    return axes;
+}
+
 label_plan plan_labels(const scene& scene) {
     if (!scene.question.has_labels) return {};
     const parameter_extremes extremes = extremes_of(scene);
     const variant_query query{extremes.lowest.data(), extremes.highest.data(), scene.options.data(), true};
+    std::optional<label_plan> plan;
     if (scene.model->certificate_covers && scene.model->certificate_covers(query)) {
-        return plan_by_certificate(scene);
+        plan = plan_by_certificate(scene);
+    } else if (scene.model->branch) {
+        plan = plan_by_intervals(scene);
     }
-    if (scene.model->branch) return plan_by_intervals(scene);
+    if (plan && scene.question.kind == "one_sided" && scene.model->branch) {
+        add_immediate_basins(scene, *plan);
+    }
+    if (plan) return *plan;
     throw scene_error(mistake{
-        .place = scene.file,
+        .place = scene.question.place,
         .key = "question.kind",
         .value = fmt::format("\"{}\"", scene.question.kind),
         .why = fmt::format("{} has no certificate for these parameters and no branches to search",

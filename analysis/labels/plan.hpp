@@ -14,4 +14,11 @@ namespace hopscotch {
 ///        this scene nor the branches of a one-dimensional return map
 label_plan plan_labels(const scene& scene);
 
+/// Positions of the scene's parameter axes.
+std::vector<std::size_t> parameter_axes(const scene& scene);
+
+/// The parameter values of every parameter point, points in C order over the axes given.
+std::vector<std::vector<double>> parameter_points(const scene& scene,
+                                                  const std::vector<std::size_t>& axes);
+
 }  // namespace hopscotch

@@ -30,6 +30,9 @@ function(hopscotch_add_models library)
         endforeach()
         set_source_files_properties(${folder}/orbits.cpp PROPERTIES COMPILE_OPTIONS "-O1")
     endforeach()
+    # a program with models of its own lists the library's too; its registry then replaces the library's
+    set(HOPSCOTCH_MODEL_NAMES ${names} PARENT_SCOPE)
+    list(APPEND names ${HOPSCOTCH_BUILTIN_MODELS})
     list(SORT names)
     foreach(model ${names})
         string(APPEND declarations "extern const model_entry ${model}_entry;\n")
@@ -38,4 +41,15 @@ function(hopscotch_add_models library)
     configure_file(${HOPSCOTCH_UNITS}/registry.cpp.in
         ${CMAKE_CURRENT_BINARY_DIR}/units/registry.cpp @ONLY)
     target_sources(${library} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/units/registry.cpp)
+endfunction()
+
+# A program with every command of Hopscotch that knows the models in the headers given as well as the
+# built-in ones.
+function(hopscotch_add_program name)
+    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${name}_main.cpp
+        "// Generated: Hopscotch's commands with more models.\n#include \"host/cli/commands.hpp\"\n\nint main(int argc, char** argv) { return hopscotch::run_program(argc, argv); }\n")
+    add_executable(${name} ${CMAKE_CURRENT_BINARY_DIR}/${name}_main.cpp)
+    set_target_properties(${name} PROPERTIES CXX_STANDARD 20)
+    target_link_libraries(${name} PRIVATE hopscotch::hopscotch)
+    hopscotch_add_models(${name} ${ARGN})
 endfunction()

@@ -1,5 +1,6 @@
 // hopscotch attractors SCENE.toml: the periodic orbits and resting states that label the scene's
 // cells.
+#include "analysis/labels/one_sided.hpp"
 #include "analysis/labels/plan.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/tables.hpp"
@@ -43,7 +44,71 @@ std::string table_of(const label_plan& plan) {
     return aligned(rows, 0);
 }
 
-std::string json_of(const scene& scene, const label_plan& plan) {
+/// One fixed point at one parameter point.
+struct sided_row {
+    std::vector<double> parameters;  // the values of the scene's parameter axes
+    std::string name;
+    one_sided_stability sides;
+};
+
+/// Both sides of every fixed point on a branch, at every parameter point.
+std::vector<sided_row> sided_rows(const scene& scene, const label_plan& plan) {
+    std::vector<sided_row> rows;
+    if (!scene.model->branch) return rows;
+    const std::vector<std::size_t> axes = parameter_axes(scene);
+    for (const std::vector<double>& parameters : parameter_points(scene, axes)) {
+        const return_map_samples map(scene, parameters);
+        std::vector<double> shown;
+        for (const std::size_t axis : axes) {
+            shown.push_back(parameters[static_cast<std::size_t>(scene.axes[axis].index)]);
+        }
+        double floor = 0.0;
+        map_branch branch{};
+        for (int k = 0; scene.model->branch(k, branch); ++k) {
+            const auto row = std::find_if(
+                plan.attractors.begin(), plan.attractors.end(), [&](const attractor_row& attractor) {
+                    return attractor.points == std::vector<double>{branch.base};
+                });
+            if (row == plan.attractors.end() && k > 0) break;
+            if (row != plan.attractors.end()) {
+                rows.push_back({shown, row->name, one_sided(map, branch, floor)});
+            }
+            floor = branch.end;
+        }
+    }
+    return rows;
+}
+
+std::string side_text(const stability_side& side) {
+    return side.attracts ? fmt::format("attracts, extent {:.17g}", side.extent) : "repels";
+}
+
+std::string sided_table(const scene& scene, const std::vector<sided_row>& rows) {
+    constexpr std::size_t most = 12;
+    std::vector<std::vector<std::string>> table{{"at", "name", "left", "right", "law on the right"}};
+    const std::size_t stride = std::max<std::size_t>(1, rows.size() / most);
+    for (std::size_t i = 0; i < rows.size(); i += stride) {
+        std::string at;
+        std::size_t position = 0;
+        for (const std::size_t axis : parameter_axes(scene)) {
+            at += fmt::format("{}{} = {:.6g}", at.empty() ? "" : " ", scene.axes[axis].name,
+                              rows[i].parameters[position++]);
+        }
+        table.push_back({at, rows[i].name, side_text(rows[i].sides.left),
+                         side_text(rows[i].sides.right),
+                         fmt::format("{:.6g} d^{:.6g}", rows[i].sides.right.coefficient,
+                                     rows[i].sides.right.exponent)});
+    }
+    return rows.empty() ? "" : aligned(table, 0);
+}
+
+std::string side_json(const stability_side& side) {
+    return fmt::format(
+        "{{\"attracts\": {}, \"coefficient\": {:.17g}, \"exponent\": {:.17g}, \"extent\": {:.17g}}}",
+        side.attracts, side.coefficient, side.exponent, side.extent);
+}
+
+std::string json_of(const scene& scene, const label_plan& plan, const std::vector<sided_row>& rows) {
     std::string text = fmt::format("{{\"model\": {}, \"columns\": {}, \"attractors\": [",
                                    json_text(scene.info().name), json_texts(plan.point_columns));
     for (std::size_t i = 0; i < plan.attractors.size(); ++i) {
@@ -55,16 +120,24 @@ std::string json_of(const scene& scene, const label_plan& plan) {
             json_numbers(row.multipliers_real), json_numbers(row.multipliers_imaginary),
             json_text(row.trap));
     }
+    text += "\n], \"one_sided\": [";
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        text += fmt::format("{}\n  {{\"name\": {}, \"parameters\": {}, \"left\": {}, \"right\": {}}}",
+                            i == 0 ? "" : ",", json_text(rows[i].name),
+                            json_numbers(rows[i].parameters), side_json(rows[i].sides.left),
+                            side_json(rows[i].sides.right));
+    }
     return text + "\n]}\n";
 }
 
 int attractors(const attractor_arguments& given) {
     const scene scene = read_scene(given.scene, given.overrides);
     const label_plan plan = plan_labels(scene);
-    fmt::print("{}", table_of(plan));
+    const std::vector<sided_row> rows = sided_rows(scene, plan);
+    fmt::print("{}{}", table_of(plan), sided_table(scene, rows));
     const std::string stem = std::filesystem::path(scene.file).stem().string();
     const std::string file = given.output.empty() ? stem + "_attractors.json" : given.output;
-    put_text(file, json_of(scene, plan));
+    put_text(file, json_of(scene, plan, rows));
     if (file != "-") fmt::print("{}\n", file);
     return exit_done;
 }

@@ -22,6 +22,10 @@ struct label_plan {
     std::vector<trap_interval>
         traps;  // [parameter point][n_traps], points in C order over point_axes
 
+    /// For the question one_sided: [parameter point][n_immediate], the immediate one-sided basins.
+    int n_immediate = 0;
+    std::vector<trap_interval> immediate;
+
     std::vector<attractor_row> attractors;   // shares are filled in after the run
     std::vector<std::string> point_columns;  // names of the columns of attractor_row::points
 };

@@ -15,7 +15,8 @@ Number* numbers(std::vector<std::byte>& buffer) {
     return reinterpret_cast<Number*>(buffer.data());  // new gives memory aligned for every number
 }
 
-/// Points the kernel's result to the layer's buffer. The period is no result: it follows the label.
+/// Points the kernel's result to the layer's buffer. Periods and immediate basins are no results: they
+/// follow from the label and from the start.
 void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::byte>& buffer) {
     switch (layer.role) {
         case layer_role::label:
@@ -40,6 +41,7 @@ void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::b
             request.extras[layer.index] = numbers<double>(buffer);
             break;
         case layer_role::period:
+        case layer_role::immediate:
             break;
     }
 }
@@ -58,12 +60,30 @@ void fill_periods(const label_plan& plan, const std::int16_t* label, std::uint64
         period[cell] = period_of(plan, label[cell]);
 }
 
-/// State layers of cells without a state say so: NaN.
+/// The attractor in whose immediate one-sided basin each start lies.
+void fill_immediate(const label_plan& plan, const ensemble_request& request,
+                    std::vector<std::byte>& buffer) {
+    std::int16_t* immediate = numbers<std::int16_t>(buffer);
+    const auto n = static_cast<std::size_t>(plan.n_immediate);
+    for (std::uint64_t cell = 0; cell < request.n_cells; ++cell) {
+        const double start = request.columns[0].at(cell);
+        const auto point = static_cast<std::size_t>(request.trap_point.at(cell));
+        immediate[cell] = 0;
+        for (std::size_t i = point * n; i < (point + 1) * n; ++i) {
+            const trap_interval& basin = plan.immediate[i];
+            if (start < basin.lowest || start > basin.highest) continue;
+            immediate[cell] = static_cast<std::int16_t>(basin.label);
+        }
+    }
+}
+
+/// State layers of cells without a state say so: NaN. A return map is blank where a return failed.
 void blank_states(const scene& scene, const ensemble_request& request) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     for (std::uint64_t cell = 0; cell < request.n_cells; ++cell) {
         const auto end = static_cast<outcome>(request.outcome[cell]);
-        if (has_state(scene.info(), scene.section, end, request.returns[cell])) continue;
+        const bool is_complete = scene.question.kind != "return_map" || end == outcome::ok;
+        if (is_complete && has_state(scene.info(), scene.section, end, request.returns[cell])) continue;
         for (double* const state : request.state) {
             if (state != nullptr) state[cell] = nan;
         }
@@ -90,8 +110,12 @@ tile_result compute_tile(const tile_job& job, const tile_box& box) {
     result.lanes = job.kernel.run(cells.request);
     blank_states(job.what, cells.request);
     for (std::size_t i = 0; i < job.layers.size(); ++i) {
-        if (job.layers[i].role != layer_role::period) continue;
-        fill_periods(job.plan, cells.request.label, n_cells, result.data.layers[i]);
+        auto& buffer = result.data.layers[i];
+        if (job.layers[i].role == layer_role::period) {
+            fill_periods(job.plan, cells.request.label, n_cells, buffer);
+        } else if (job.layers[i].role == layer_role::immediate) {
+            fill_immediate(job.plan, cells.request, buffer);
+        }
     }
     const auto end = std::chrono::steady_clock::now();
     result.seconds = std::chrono::duration<double>(end - begin).count();

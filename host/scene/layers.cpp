@@ -49,6 +49,11 @@ std::vector<layer_plan> available_layers(const scene& scene) {
         layers.push_back(plan(layer_role::period, "period", number_type::int16, "1",
                               "period of that attractor in returns (0 = aperiodic or none)", -1.0));
     }
+    if (scene.question.kind == "one_sided") {
+        layers.push_back(plan(layer_role::immediate, "immediate", number_type::int16, "1",
+                              "attractor in whose immediate one-sided basin the start lies (0 = none)",
+                              -1.0));
+    }
     layers.push_back(plan(layer_role::outcome, "outcome", number_type::uint8, "1",
                           "why the orbit's computation ended", 255.0));
     layers.back().description.flags = outcome_flags();

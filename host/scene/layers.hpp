@@ -19,6 +19,7 @@ enum class layer_role : std::uint8_t {
     events,
     time,
     period,
+    immediate,
     state,
     extra
 };

@@ -9,6 +9,7 @@ namespace {
 using names = std::string_view;
 
 constexpr std::array<names, 3> label_layers{"label", "outcome", "returns"};
+constexpr std::array<names, 4> one_sided_layers{"label", "immediate", "outcome", "returns"};
 constexpr std::array<names, 4> period_layers{"period", "label", "outcome", "returns"};
 constexpr std::array<names, 2> state_layers{"state", "outcome"};
 constexpr std::array<names, 3> fall_layers{"returns", "outcome", "time"};
@@ -23,7 +24,7 @@ constexpr std::array<question_kind, 8> kinds{{
      true,
      2000,
      {},
-     label_layers},
+     one_sided_layers},
     {"period",
      "the period of the attractor that each start tends to",
      true,

@@ -14,13 +14,14 @@ enum law_index { original, solvable, level };
 template <class Real>
 struct horizontal {
     Real distance;
-    Real advance;       // position . velocity
+    Real advance;  // position . velocity
     Real speed_square;
-    Real spin;          // position x velocity; 0 in the plane
+    Real spin;  // position x velocity; 0 in the plane
 };
 
-/// First time at which the horizontal distance has fallen to `radius`; +infinity where it never does.
-/// Starts outside. The discriminant comes from the spin: for motion through the shoulder it is a square.
+/// First time at which the horizontal distance has fallen to `radius`; +infinity where it never
+/// does. Starts outside. The discriminant comes from the spin: for motion through the shoulder it
+/// is a square.
 template <class Real>
 HOPSCOTCH_DEVICE inline Real shoulder_time(const horizontal<Real>& motion, const Real& radius) {
     const Real zero(0.0);

@@ -24,6 +24,7 @@ struct planar_lane {
     Real shoulder_radius;
     Real bar_length;
     Real floor_height;
+    Real horizontal_share;  // of v^2 in the regulated energy: 0 vertical, 1/2 total
 
     // the apex
     Real x;
@@ -176,13 +177,13 @@ void report_cycle(const planar_lane<Real>& lane, const planar_contact<Real>& con
 }
 
 /// One cycle for every active lane.
-template <int Law, bool TotalEnergy, class Real, class Watch>
+template <int Law, class Real, class Watch>
 HOPSCOTCH_DEVICE inline progress<Real> planar_cycle(planar_lane<Real>& lane,
                                                     const mask_of<Real>& active, Watch& watch) {
     const Real zero(0.0);
     const Real one(1.0);
-    Real missing = lane.gravity * (lane.target_height - lane.z);
-    if constexpr (TotalEnergy) missing = fma(Real(-0.5) * lane.speed, lane.speed, missing);
+    const Real missing = fma(-lane.horizontal_share, lane.speed * lane.speed,
+                             lane.gravity * (lane.target_height - lane.z));
     const Real gain = fma(lane.energy_gain, missing, lane.gain_offset);
     const Real regulation =
         fma(lane.position_gain, lane.x - lane.target_x, lane.velocity_gain * lane.speed);

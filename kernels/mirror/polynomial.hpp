@@ -49,6 +49,7 @@ HOPSCOTCH_DEVICE inline break_points<Degree, Real> sign_changes(const Real (&c)[
         const auto turning = sign_changes<Degree - 1>(derivative, to, wanted);
         Real from = zero;
         Real at_from = c[0];
+#pragma GCC unroll 1
         for (int i = 0; i < Degree; ++i) {
             const Real end = i + 1 < Degree ? turning.at[i < Degree - 1 ? i : 0] : to;
             const Real at_end = evaluate<Degree>(c, end).value;
@@ -93,6 +94,7 @@ HOPSCOTCH_DEVICE inline first_fall<Real> first_fall_between(Function&& falling,
     Real low = zero;
     Real high = to;
     mask_of<Real> searching = wanted;
+#pragma GCC unroll 1
     for (int i = 0; i <= N; ++i) {
         const Real end = i < N ? points.at[i < N ? i : 0] : to;
         const mask_of<Real> down = falling(end).value <= zero;

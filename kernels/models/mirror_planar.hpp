@@ -76,11 +76,9 @@ struct mirror_planar {
         .outcomes = outcomes,
         .trace_columns = trace_columns};
 
-    /// Law + 3 energy.
-    static constexpr int n_variants = 6;
-    static int variant(const variant_query& scene) {
-        return scene.options[0] + 3 * scene.options[1];
-    }
+    /// One per law.
+    static constexpr int n_variants = 3;
+    static int variant(const variant_query& scene) { return scene.options[0]; }
 
     static constexpr std::string_view refusal(const double* parameter, const int*) {
         if (!(parameter[shoulder_radius] < parameter[bar_length])) {
@@ -94,7 +92,7 @@ struct mirror_planar {
 
     template <int Variant, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> begin(lane<Real>& lane, int, const Real* column,
-                                                 const Real* p, const int*, Watch&) {
+                                                 const Real* p, const int* option, Watch&) {
         const Real zero(0.0);
         lane = {p[restitution],
                 p[gravity],
@@ -107,6 +105,7 @@ struct mirror_planar {
                 p[shoulder_radius],
                 p[bar_length],
                 p[floor_height],
+                Real(option[1] == 1 ? 0.5 : 0.0),
                 column[0],
                 column[1],
                 column[2],
@@ -122,7 +121,7 @@ struct mirror_planar {
     template <int Variant, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
                                                 Watch& watch) {
-        return mirror::planar_cycle<Variant % 3, (Variant >= 3)>(lane, active, watch);
+        return mirror::planar_cycle<Variant>(lane, active, watch);
     }
 
     template <class Real>

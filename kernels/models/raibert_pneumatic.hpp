@@ -117,9 +117,10 @@ struct raibert_pneumatic {
     }
 
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch&) {
-        if constexpr (Variant == 0) {
-            return step_with_friction(lane, active);
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
+        // a trace needs the motion in time, which exact hops skip
+        if constexpr (Variant == 0 || Watch::is_active) {
+            return step_with_friction(lane, active, watch);
         } else {
             return step_without_friction<Variant == 1>(lane, active);
         }
@@ -168,13 +169,32 @@ struct raibert_pneumatic {
         begin_arc(lane, Real(1.0), wanted);
     }
 
+    /// Reports an event that leaves height and, but for the leg's inertia, velocity as they are.
+    template <class Real, class Watch>
+    static void report(Watch& watch, const char* name, const lane<Real>& lane, const char* left,
+                       const char* entered, const Real& velocity, const Real& after_velocity) {
+        const Real before[] = {lane.length, velocity};
+        const Real after[] = {lane.length, after_velocity};
+        watch.event(name, lane.time, left, entered, before, after,
+                    Real(0.5) * (velocity * velocity - after_velocity * after_velocity));
+    }
+
     /// Thrust from the bottom on; lanes whose thrust is cut are at lift-off (depth 0) afterwards.
-    template <class Real>
-    HOPSCOTCH_DEVICE static pneumatic::thrust_end<Real> push_off(lane<Real>& lane, const mask_of<Real>& wanted) {
+    template <class Real, class Watch>
+    HOPSCOTCH_DEVICE static pneumatic::thrust_end<Real> push_off(lane<Real>& lane, const mask_of<Real>& wanted,
+                                                                 Watch& watch) {
         const Real zero(0.0);
         const Real one(1.0);
         const auto end = pneumatic::thrust(lane.depth, lane.length, lane.thrust - lane.gravity,
                                            lane.friction, lane.thrust_time, wanted);
+        if constexpr (Watch::is_active) {
+            const Real net = lane.thrust - lane.gravity;
+            watch.phase("thrust", lane.time, end.duration, [&](Real t, Real* columns) {
+                const auto there = pneumatic::push(t, lane.friction);
+                columns[0] = fma(net, there.displacement, lane.length);
+                columns[1] = net * there.velocity;
+            });
+        }
         const mask_of<Real> full = wanted & !end.cut;
         lane.length = select(full, lane.length + end.rise, select(end.cut, lane.lift_height, lane.length));
         lane.depth = select(full, lane.depth - end.rise, select(end.cut, zero, lane.depth));
@@ -184,6 +204,9 @@ struct raibert_pneumatic {
         lane.was_cut = select(end.cut, one, lane.was_cut);
         lane.events = select(full, lane.events + one, lane.events);
         lane.fresh = select(wanted, zero, lane.fresh);
+        if constexpr (Watch::is_active) {
+            if (full) report(watch, "thrust end", lane, "thrust", "decompression", lane.velocity, lane.velocity);
+        }
         return end;
     }
 
@@ -206,11 +229,22 @@ struct raibert_pneumatic {
 
     /// Lift-off at `speed`, the leg's inertia, and the flight to the next touchdown. Returns the lanes whose
     /// return this completes; those counted at the apex owe the fall to their next one.
-    template <class Real>
-    HOPSCOTCH_DEVICE static mask_of<Real> fly(lane<Real>& lane, const Real& speed, const mask_of<Real>& wanted) {
+    template <class Real, class Watch>
+    HOPSCOTCH_DEVICE static mask_of<Real> fly(lane<Real>& lane, const Real& speed, const mask_of<Real>& wanted,
+                                              Watch& watch) {
         const Real one(1.0);
         const Real next = speed / lane.leg_factor;
         const Real rise = next / lane.flight_gravity;
+        if constexpr (Watch::is_active) {
+            if (wanted) {
+                report(watch, "lift-off", lane, lane.depth == Real(0.0) ? "thrust" : "decompression", "flight",
+                       speed, next);
+                watch.phase("flight", lane.time, rise + rise, [&](Real t, Real* columns) {
+                    columns[0] = lane.lift_height + t * fma(Real(-0.5) * lane.flight_gravity, t, next);
+                    columns[1] = fma(-lane.flight_gravity, t, next);
+                });
+            }
+        }
         const mask_of<Real> to_apex = wanted & (lane.section == one);
         lane.speed = select(wanted, next, lane.speed);
         lane.time = select(wanted, lane.time + select(to_apex, rise, rise + rise), lane.time);
@@ -221,8 +255,8 @@ struct raibert_pneumatic {
     }
 
     /// Hops so small that their arcs merge: v' = P'(0) v, P'(0)^2 = (tau - g) / (eta1 / chi_l - g).
-    template <class Real>
-    HOPSCOTCH_DEVICE static mask_of<Real> hop_tiny(lane<Real>& lane, const mask_of<Real>& wanted) {
+    template <class Real, class Watch>
+    HOPSCOTCH_DEVICE static mask_of<Real> hop_tiny(lane<Real>& lane, const mask_of<Real>& wanted, Watch& watch) {
         const Real zero(0.0);
         const Real net = lane.thrust - lane.gravity;
         const Real braking = lane.stiffness / lane.lift_height - lane.gravity;
@@ -236,7 +270,7 @@ struct raibert_pneumatic {
         lane.was_cut = select(tiny & (lane.thrust_time > zero), Real(1.0), lane.was_cut);
         lane.bottom = select(tiny, lane.lift_height, lane.bottom);
         lane.events = select(tiny, lane.events + Real(1.0), lane.events);
-        return fly(lane, launched, tiny);
+        return fly(lane, launched, tiny, watch);
     }
 
     template <class Real>
@@ -249,9 +283,10 @@ struct raibert_pneumatic {
     template <bool IsTimed, class Real>
     HOPSCOTCH_DEVICE static progress<Real> step_without_friction(lane<Real>& lane, const mask_of<Real>& active) {
         const Real zero(0.0);
+        unwatched watch;
         pay(lane, active);
         const mask_of<Real> compresses = active & !(lane.extending > zero);
-        mask_of<Real> returned = hop_tiny(lane, compresses);
+        mask_of<Real> returned = hop_tiny(lane, compresses, watch);
         const mask_of<Real> falls = compresses & !returned;
         if (any(falls)) {
             const Real x = pneumatic::bottom_depth(lane.stiffness, lane.gravity * lane.lift_height,
@@ -267,7 +302,7 @@ struct raibert_pneumatic {
         }
         const mask_of<Real> at_bottom = falls & (lane.section == Real(2.0));
         const mask_of<Real> pushes = active & !returned & !at_bottom;
-        const auto end = push_off(lane, pushes);
+        const auto end = push_off(lane, pushes, watch);
         const Real log_depth = logarithmic_depth(lane);
         const Real square = liftoff_square(lane, log_depth);
         const mask_of<Real> lifts = pushes & !end.crashes &
@@ -282,7 +317,7 @@ struct raibert_pneumatic {
         ended = select(pushes & end.crashes, code_of<Real>(outcome::crash), ended);
         const mask_of<Real> lost = pushes & !end.crashes & !(square == square);
         ended = select(lost, code_of<Real>(outcome::not_finite), ended);
-        returned = returned | at_bottom | fly(lane, speed, lifts & !lost);
+        returned = returned | at_bottom | fly(lane, speed, lifts & !lost, watch);
         return {returned, ended};
     }
 
@@ -300,23 +335,24 @@ struct raibert_pneumatic {
     }
 
     /// One integrator step of an arc; thrust is taken at the beginning of decompression.
-    template <class Real>
-    HOPSCOTCH_DEVICE static progress<Real> step_with_friction(lane<Real>& lane, const mask_of<Real>& active) {
+    template <class Real, class Watch>
+    HOPSCOTCH_DEVICE static progress<Real> step_with_friction(lane<Real>& lane, const mask_of<Real>& active,
+                                                              Watch& watch) {
         using plain = primal_of<Real>;
         const Real zero(0.0);
         const Real one(1.0);
         pay(lane, active);
         const mask_of<Real> fresh = active & (lane.fresh > zero);
-        mask_of<Real> returned = hop_tiny(lane, fresh & !(lane.extending > zero));
+        mask_of<Real> returned = hop_tiny(lane, fresh & !(lane.extending > zero), watch);
         const mask_of<Real> moving = active & !returned;
         const mask_of<Real> pushes = fresh & moving & (lane.extending > zero);
         mask_of<Real> cut = pushes & !pushes;
         mask_of<Real> crashes = cut;
         if (any(pushes)) {
-            const auto end = push_off(lane, pushes);
+            const auto end = push_off(lane, pushes, watch);
             cut = end.cut;
             crashes = end.crashes;
-            returned = returned | fly(lane, lane.velocity, cut);
+            returned = returned | fly(lane, lane.velocity, cut, watch);
         }
         lane.fresh = select(moving & !cut, zero, lane.fresh);
         const mask_of<Real> extends = moving & !cut & !crashes & (lane.extending > zero);
@@ -339,6 +375,19 @@ struct raibert_pneumatic {
         const mask_of<Real> turns = flows & turn.found & !lifts;
         const Real s = select(lifts, off.time, select(turns, turn.time, Real(horizon)));
         const Real passed = taylor::evaluate(a.time, s);
+        if constexpr (Watch::is_active) {
+            if (fresh && compresses) {
+                report(watch, "touchdown", lane, "flight", "compression", lane.velocity, lane.velocity);
+            }
+            if (flows) {
+                watch.phase(compresses ? "compression" : "decompression", lane.time, passed,
+                            [&](Real t, Real* columns) {
+                                const auto there = a.at_time(t, s);
+                                columns[0] = there.length;
+                                columns[1] = there.velocity;
+                            });
+            }
+        }
         lane.length = select(flows, taylor::evaluate(a.length, s), lane.length);
         lane.depth = select(flows, taylor::evaluate(a.depth, s), lane.depth);
         lane.velocity = select(flows, taylor::evaluate(a.velocity, s), lane.velocity);
@@ -348,12 +397,15 @@ struct raibert_pneumatic {
 
         const mask_of<Real> bottoms = turns & compresses;
         reach_bottom(lane, bottoms);
+        if constexpr (Watch::is_active) {
+            if (bottoms) report(watch, "bottom", lane, "compression", "thrust", zero, zero);
+        }
         const mask_of<Real> lost = flows & ((turn.unresolved & !lifts) | (off.unresolved & !turns));
         const mask_of<Real> broken = flows & !(horizon >= plain(0.0));
         const mask_of<Real> creeps = extends & flows & !lifts & !turns &
                                      ((lane.arc_steps > Real(most_arc_steps)) |
                                       (lane.arc_time > Real(longest_arc)));
-        returned = returned | fly(lane, lane.velocity, lifts) | (bottoms & (lane.section == Real(2.0)));
+        returned = returned | fly(lane, lane.velocity, lifts, watch) | (bottoms & (lane.section == Real(2.0)));
         Real ended = select(fails | (turns & extends), code_of<Real>(outcome::no_liftoff), zero);
         ended = select(stays, code_of<Real>(outcome::sinks), ended);
         ended = select(crashes, code_of<Real>(outcome::crash), ended);

@@ -6,6 +6,7 @@
 #include "kernels/spring_leg/gravity_free_stance.hpp"
 #include "kernels/spring_leg/stance_under_gravity.hpp"
 #include "kernels/spring_leg/stride.hpp"
+#include "kernels/spring_leg/trace.hpp"
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
@@ -113,14 +114,17 @@ struct slip {
     }
 
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch&) {
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
         const Real zero(0.0);
         const mask_of<Real> starts = active & (lane.in_stance == zero);
         lane.time = select(starts, lane.time + spring_leg::descent(lane), lane.time);
         progress<Real> done;
         if constexpr (has_stance_gravity<Variant>) {
-            done = step_of_stance<has_air_spring<Variant>>(lane, active, starts);
+            done = step_of_stance<has_air_spring<Variant>>(lane, active, starts, watch);
         } else {
+            if constexpr (Watch::is_active) {
+                spring_leg::reporter<has_air_spring<Variant>, Watch>{watch}.gravity_free_stride(lane);
+            }
             const Real ended = stride_without_gravity<has_air_spring<Variant>>(lane, active);
             const mask_of<Real> completed = active & (ended == zero);
             done = {completed, ended};
@@ -197,9 +201,9 @@ struct slip {
     static constexpr double longest_stance = 1e4;
 
     /// One integrator step of a stance under gravity, with the flight that follows its lift-off.
-    template <bool IsAir, class Real>
+    template <bool IsAir, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> step_of_stance(lane<Real>& lane, const mask_of<Real>& active,
-                                                          const mask_of<Real>& starts) {
+                                                          const mask_of<Real>& starts, Watch& watch) {
         using namespace spring_leg;
         const Real zero(0.0);
         const Real one(1.0);
@@ -230,6 +234,12 @@ struct slip {
             advance(a, lane.untouched, IsAir ? Real(2.0) * closing : closing, moves);
         const Real s = step.length_of_step;
         const Real passed = IsAir ? s : taylor::evaluate(a.time, s);
+        if constexpr (Watch::is_active) {
+            reporter<IsAir, Watch> report{watch};
+            if (starts) report.event("touchdown", lane, lane.time, "flight", "stance");
+            const Real began = fma(lane.elapsed, lane.time_unit, lane.time);
+            if (moves) report.stance(lane, a, s, began, passed);
+        }
         lane.x = select(moves, taylor::evaluate(a.x, s), lane.x);
         lane.y = select(moves, taylor::evaluate(a.y, s), lane.y);
         lane.x_rate = select(moves, taylor::evaluate(a.x_rate, s), lane.x_rate);
@@ -246,6 +256,12 @@ struct slip {
         lane.time = select(leaves_stance, fma(lane.elapsed, lane.time_unit, lane.time), lane.time);
         lane.sweep = select(leaves_stance, swept_angle(lane), lane.sweep);
         lane.events = select(grounds, lane.events + one, lane.events);
+
+        if constexpr (Watch::is_active) {
+            reporter<IsAir, Watch> report{watch};
+            if (grounds) report.event("ground", lane, lane.time, "stance", "ground");
+            if (lifts) report.flight(lane, lane.time);
+        }
 
         const lift_off<Real> from{lane.x_rate, lane.y_rate, lane.y - lane.beta_sin};
         Real ended = select(misses, code_of<Real>(outcome::no_contact), zero);

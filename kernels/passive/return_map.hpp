@@ -246,9 +246,11 @@ HOPSCOTCH_DEVICE inline progress<Real> land(hopper_lane<Real>& lane, const landi
         returned = after.lifts & !dies;
         ended = select(contact & !returned, code_of<Real>(outcome::stuck), zero);
         if constexpr (!Variant::has_rebound) {
+            // at M = infinity nothing is lost and nothing is attracted
             const mask_of<Real> in_trap =
-                stays & ((lane.kappa <= least_escaping_kappa(from.centre)) |
-                         (old_beta <= Real(falling_part)));
+                stays & (lane.kappa > zero) &
+                ((lane.kappa <= least_escaping_kappa(from.centre)) |
+                 (old_beta <= Real(falling_part)));
             lane.trapped = select(returned, select(in_trap, cell + one, zero), lane.trapped);
         }
     }

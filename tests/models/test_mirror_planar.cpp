@@ -53,7 +53,7 @@ auto with_row(const juggler& j, const std::vector<std::string>& columns, std::ui
     const int options[] = {j.law, j.energy};
     orbit_row row;
     row.options = options;
-    row.variant = j.law + 3 * j.energy;
+    row.variant = j.law;
     row.columns = columns;
     row.parameters = parameters;
     row.returns = returns;
