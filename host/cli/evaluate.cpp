@@ -1,6 +1,7 @@
 // Rows through the return map.
 #include "host/cli/evaluate.hpp"
 
+#include "host/cli/event_word.hpp"
 #include "host/run/backends.hpp"
 #include "host/run/run_map.hpp"
 #include "host/run/state_rule.hpp"
@@ -59,12 +60,25 @@ row_numbers read_all(const row_source& rows) {
     return all;
 }
 
+orbit_row row_of(const row_source& rows, const evaluation& what, const start_row& start) {
+    orbit_row row;
+    row.section = rows.section();
+    row.options = start.options.data();
+    row.variant = variant_of(rows.model(), start);
+    row.columns = start.column_texts;
+    row.parameters = start.parameter_texts;
+    row.returns = what.returns;
+    row.max_steps = what.max_events;
+    return row;
+}
+
 /// A piece of a group, gathered for one kernel call.
 class row_batch {
 public:
     row_batch(const row_source& rows, const evaluation& what, const row_numbers& all,
               const row_group& group, std::size_t begin, std::size_t n)
         : rows_(rows),
+          what_(what),
           indices_(group.rows.begin() + static_cast<std::ptrdiff_t>(begin),
                    group.rows.begin() + static_cast<std::ptrdiff_t>(begin + n)) {
         request_.n_cells = n;
@@ -108,11 +122,20 @@ private:
         std::string text = fmt::format("{},{},{},{},{}", indices_[i], name_of(end), returns_[i],
                                        events_[i], number_text(time_[i]));
         for (const auto& column : state_) text += "," + (is_shown ? number_text(column[i]) : "");
-        for (const auto& extra : extras_) text += "," + number_text(extra[i]);
+        for (std::size_t e = 0; e < extras_.size(); ++e) {
+            const extra_info& extra = rows_.model().info->extras[e];
+            text += "," + (extra.is_word() ? word(extra, indices_[i]) : number_text(extras_[e][i]));
+        }
         return text;
     }
 
+    std::string word(const extra_info& extra, std::size_t index) const {
+        const start_row start = rows_.row(index);
+        return event_word(rows_.model(), extra, row_of(rows_, what_, start));
+    }
+
     const row_source& rows_;
+    const evaluation& what_;
     std::vector<std::size_t> indices_;
     ensemble_request request_;
     std::vector<std::vector<double>> tables_;
@@ -151,16 +174,14 @@ void run_orbits(const row_source& rows, const evaluation& what, std::vector<std:
     for (std::size_t i = 0; i < rows.n_rows(); ++i) rows.row(i);  // the first bad row, not any
     tbb::parallel_for(std::size_t{0}, rows.n_rows(), [&](std::size_t i) {
         const start_row start = rows.row(i);
-        orbit_row row;
-        row.section = rows.section();
-        row.options = start.options.data();
-        row.variant = variant_of(rows.model(), start);
-        row.columns = start.column_texts;
-        row.parameters = start.parameter_texts;
-        row.returns = what.returns;
-        row.max_steps = what.max_events;
+        orbit_row row = row_of(rows, what, start);
         row.derivative = what.has_derivative;
-        lines[i] = answer_line(i, run_orbit(rows.model(), what.precision, row));
+        orbit_answer answer = run_orbit(rows.model(), what.precision, row);
+        const auto extras = rows.model().info->extras;
+        for (std::size_t e = 0; e < extras.size(); ++e) {
+            if (extras[e].is_word()) answer.extras[e] = event_word(rows.model(), extras[e], row);
+        }
+        lines[i] = answer_line(i, answer);
     });
 }
 

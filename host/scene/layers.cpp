@@ -68,6 +68,10 @@ std::vector<layer_plan> available_layers(const scene& scene) {
     for (int index = 0; index < n_columns; ++index) layers.push_back(state_plan(scene, index));
     int index = 0;
     for (const extra_info& extra : scene.info().extras) {
+        if (extra.is_word()) {  // only `eval` can spell it
+            ++index;
+            continue;
+        }
         layers.push_back(plan(layer_role::extra, std::string(extra.name), number_type::float64,
                               std::string(extra.unit), std::string(extra.meaning), nan, index++));
     }

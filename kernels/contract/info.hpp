@@ -59,11 +59,21 @@ struct option_info {
     std::string_view meaning;
 };
 
-/// A number reported beside the state: summed over returns, or a 0/1 flag that stays raised, or words.
+/// The letter that an event (by its name in the trace) adds to an event word.
+struct event_letter {
+    std::string_view event;
+    char letter;
+};
+
+/// A number reported beside the state: summed over returns, or a 0/1 flag that stays raised. With
+/// letters it is a word instead, spelt by the orbit's events; the lane's number is then ignored.
 struct extra_info {
     std::string_view name;
     std::string_view unit;
     std::string_view meaning;
+    std::span<const event_letter> letters = {};
+
+    constexpr bool is_word() const { return !letters.empty(); }
 };
 
 inline constexpr int most_columns = 8;

@@ -35,8 +35,10 @@ struct openloop_hopper {
     static constexpr option_info options[] = {
         {"takeoff_guard", guards,
          "take-off at the leg's rest length, or already at zero ground force"}};
+    static constexpr event_letter letters[] = {
+        {"take-off", 'T'}, {"landing", 'L'}, {"thrust off", '-'}, {"thrust on", '+'}};
     static constexpr extra_info extras[] = {
-        {"event_word", "", "letters T L - + of take-off, landing, thrust off, thrust on"},
+        {"event_word", "", "letters of take-off, landing, thrust off and thrust on", letters},
         {"hops", "1", "take-offs, summed over returns"},
         {"work", "s^2", "work of the thrust over weight and g, summed over returns"}};
     static constexpr outcome outcomes[] = {outcome::ok, outcome::no_hop};

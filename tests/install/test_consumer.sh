@@ -17,4 +17,4 @@ cd "$work"
 ./build/my_hopscotch models | grep -q '^passive_hopper' || { echo "the built-in models are gone"; exit 1; }
 printf 'speed,restitution\n4,0.5\n' >rows.csv
 ./build/my_hopscotch eval bouncing_ball --section bounce --returns 3 --input rows.csv | tee rows.out
-grep -q '^0,ok,3,3,.*5\.0000000000000000e-01$' rows.out || { echo "e^3 v is 0.5"; exit 1; }
+grep -q '^0,ok,3,3,.*,0\.5$' rows.out || { echo "e^3 v is 0.5"; exit 1; }

@@ -223,7 +223,7 @@ TEST(MirrorLine, heights_near_the_dead_stop_grow_back_instead_of_being_flushed) 
     EXPECT_EQ(juggle(y, reduced("2.75"), 2000).end, outcome::ok);
 }
 
-TEST(MirrorLine, slow_rest_is_labelled_by_proof) {
+TEST(MirrorLine, sluggish_rest_is_labelled_by_proof) {
     const settings set = reduced("0.999");  // 1 - a = 1e-3: 500 cycles per factor e
     EXPECT_EQ(label_of("0.5", set), 1);
     EXPECT_GT(apex_of(juggle("0.5", set, 100)), 1e-3);
