@@ -18,8 +18,6 @@ struct trajectory {
     typename Model::template lane<Real> motion;
     Real returns;  // completed
     Real steps;    // of work since the last return
-    Real label;    // > 0 once proved
-    Real ended;    // outcome code, 0 while under way
     Real busy;     // 1 while the lane holds an unfinished trajectory
 };
 
@@ -85,7 +83,7 @@ class ensemble {
         next_cell_ += static_cast<std::uint64_t>(n);
 
         unwatched watch;
-        fresh_.returns = fresh_.steps = fresh_.label = fresh_.ended = Real(0.0);
+        fresh_.returns = fresh_.steps = Real(0.0);
         fresh_.busy = is_cell;
         const progress<Real> done = Model::template begin<Variant>(
             fresh_.motion, request_.section, columns, parameters, request_.options, watch);
@@ -167,37 +165,40 @@ class ensemble {
         const mask_of<Real> returned = active & done.returned;
         at.returns = select(returned, at.returns + one, at.returns);
         at.steps = select(returned, zero, at.steps + one);
-        at.ended = select(active, done.ended, at.ended);
         const mask_of<Real> spent = active & (at.steps >= Real(request_.max_steps));
-        at.ended = select(spent & (at.ended == zero), code_of<Real>(outcome::budget), at.ended);
+        const mask_of<Real> full = at.returns >= Real(static_cast<double>(request_.max_returns));
+        Real ended = select(active, done.ended, zero);
+        if (request_.decided_by == decision::returns && !any(full | spent | !(ended == zero))) return;
 
+        ended = select(spent & (ended == zero), code_of<Real>(outcome::budget), ended);
+        Real label = zero;
         if (request_.decided_by == decision::certificate) {
             if constexpr (certifies<Model, Real>) {
-                const Real proved = Model::template certificate<Variant>(at.motion);
-                at.label = select(active & (at.ended == zero), proved, at.label);
+                label = select(active & (ended == zero),
+                               Model::template certificate<Variant>(at.motion), zero);
             }
         } else if (request_.decided_by == decision::intervals) {
-            find_intervals(at, cells, active & (at.ended == zero));
+            find_intervals(at, cells, active & (ended == zero), label);
         }
-        const mask_of<Real> dies = (at.ended == code_of<Real>(outcome::stuck)) |
-                                   (at.ended == code_of<Real>(outcome::rest));
-        at.label = select(active & dies, Real(static_cast<double>(request_.died_label)), at.label);
+        const mask_of<Real> dies = (ended == code_of<Real>(outcome::stuck)) |
+                                   (ended == code_of<Real>(outcome::rest));
+        label = select(active & dies, Real(static_cast<double>(request_.died_label)), label);
 
-        const mask_of<Real> full = at.returns >= Real(static_cast<double>(request_.max_returns));
-        const mask_of<Real> labelled = at.label > zero;
+        const mask_of<Real> labelled = label > zero;
         const Real at_limit = request_.decided_by == decision::returns
                                   ? zero
                                   : code_of<Real>(outcome::budget);
-        const mask_of<Real> finished = active & (labelled | full | !(at.ended == zero));
-        at.ended = select(labelled, code_of<Real>(outcome::attracted),
-                          select(full & (at.ended == zero), at_limit, at.ended));
+        const mask_of<Real> finished = active & (labelled | full | !(ended == zero));
+        ended = select(labelled, code_of<Real>(outcome::attracted),
+                       select(full & (ended == zero), at_limit, ended));
         if (any(finished)) {
-            write(at, cells, select(finished, one, zero));
+            write(at, label, ended, cells, select(finished, one, zero));
             at.busy = select(finished, zero, at.busy);
         }
     }
 
-    HOPSCOTCH_DEVICE void find_intervals(state& at, const std::uint64_t* cells, mask_of<Real> wanted) {
+    HOPSCOTCH_DEVICE void find_intervals(const state& at, const std::uint64_t* cells, mask_of<Real> wanted,
+                                         Real& label) {
         Real columns[most_columns];
         Model::read_state(at.motion, request_.end_section, columns);
         const Real flags = select(wanted, Real(1.0), Real(0.0));
@@ -208,7 +209,7 @@ class ensemble {
             const trap_interval* trap = request_.traps + point * static_cast<std::uint64_t>(request_.n_traps);
             for (int i = 0; i < request_.n_traps; ++i) {
                 if (x >= trap[i].lowest && x <= trap[i].highest) {
-                    lanes_of(at.label)[lane] = static_cast<double>(trap[i].label);
+                    lanes_of(label)[lane] = static_cast<double>(trap[i].label);
                     break;
                 }
             }
@@ -224,7 +225,8 @@ class ensemble {
     }
 
     /// Writes the results of the lanes flagged, layer by layer.
-    HOPSCOTCH_DEVICE void write(const state& at, const std::uint64_t* cells, const Real& flags) const {
+    HOPSCOTCH_DEVICE void write(const state& at, const Real& label, const Real& ended,
+                                const std::uint64_t* cells, const Real& flags) const {
         const ensemble_request& to = request_;
         int lanes[width];
         int n = 0;
@@ -239,8 +241,8 @@ class ensemble {
                 layer[cells[lanes[i]]] = static_cast<number>(lanes_of(field)[lanes[i]]);
             }
         };
-        put(to.label, at.label);
-        put(to.outcome, at.ended);
+        put(to.label, label);
+        put(to.outcome, ended);
         put(to.returns, at.returns);
         put(to.events, at.motion.events);
         put(to.time, at.motion.time);

@@ -103,7 +103,7 @@ HOPSCOTCH_DEVICE inline Real lift_off_guess(const launch<Real>& from) {
 /// Index k of the cell (k pi, (k + 1) pi] that holds a speed >= 0; decided with the low part of pi (H5).
 template <class Real>
 HOPSCOTCH_DEVICE inline Real cell_of(Real speed) {
-    Real k = floor(speed / pi<Real>());
+    Real k = floor(speed * Real(0.31830988618379069));  // may be off by one, corrected below
     const auto beyond = [&](Real turns) {  // speed - turns * pi without cancellation error
         if constexpr (binary64_lane<Real>) {
             return fma(-turns, Real(2.0 * half_pi_parts::middle), fma(-turns, pi<Real>(), speed));
@@ -132,6 +132,7 @@ template <class Real>
 HOPSCOTCH_DEVICE inline bracket<Real> bounce_bracket(const launch<Real>& from) {
     const Real speed = from.offset;
     bracket<Real> result{Real(0.0), pi<Real>()};
+    if (!any(speed >= Real(3.1415))) return result;
     // H(m pi) = m pi, and V cot V changes sign there: which side of m pi a speed lies on decides
     const Real m = cell_of(speed);
     const mask_of<Real> is_fast = m >= Real(1.0);

@@ -73,10 +73,12 @@ HOPSCOTCH_DEVICE inline void set_lift_off_speed(hopper_lane<Real>& lane, Real al
 template <class Real>
 HOPSCOTCH_DEVICE inline void set_distance(hopper_lane<Real>& lane, Real beta,
                                           mask_of<Real> wanted) {
-    const Real k = cell_of(larger(lane.centre + (lane.centre_low + beta), Real(0.0)));
-    const mask_of<Real> leaves = wanted & !(k == lane.cell);
+    const Real left = fma(lane.cell, pi<Real>(), -lane.centre);
+    const mask_of<Real> leaves =
+        wanted & !((beta > left) & (beta <= left + pi<Real>())) & !(beta == Real(0.0));
     Real shifted = beta;
     if (any(leaves)) {
+        const Real k = cell_of(larger(lane.centre + (lane.centre_low + beta), Real(0.0)));
         const Real high = lane.centre;
         const Real low = lane.centre_low;
         enter_cell(lane, k, leaves);
