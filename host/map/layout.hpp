@@ -49,6 +49,7 @@ struct layer {
     double fill =
         0.0;  // means "not computed"; NaN for float64, -1 for int16, the largest value else
     std::vector<std::pair<int, std::string>> flags;
+    bool holds_labels = false;  // its values are attractors: named and coloured like them
 };
 
 /// Axes in the scene's order: the first one is the slowest in memory (C order), as in `--cell i,j`.

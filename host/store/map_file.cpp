@@ -52,6 +52,8 @@ std::string colour_words(const std::vector<std::pair<int, std::string>>& flags,
     return words;
 }
 
+bool holds_labels(const layer& each) { return each.holds_labels || each.name == "label"; }
+
 void write_flags(hdf5_file& file, const layer& each, const std::vector<attractor_row>& attractors) {
     typed_numbers values{stored_as(each.type), {}};
     std::string meanings;
@@ -61,7 +63,7 @@ void write_flags(hdf5_file& file, const layer& each, const std::vector<attractor
     }
     file.set_attribute(each.name, "flag_values", values);
     file.set_attribute(each.name, "flag_meanings", meanings);
-    if (each.name == "label") {
+    if (holds_labels(each)) {
         file.set_attribute(each.name, "flag_colors", colour_words(each.flags, attractors));
     }
 }
@@ -168,7 +170,7 @@ map_description completed(map_description map, const std::string& place) {
             throw store_error(place, "layer " + each.name + " has the name of an axis or layer",
                               "leave it out of output.layers");
         }
-        if (each.name != "label" || !each.flags.empty() || map.attractors.empty()) continue;
+        if (!holds_labels(each) || !each.flags.empty() || map.attractors.empty()) continue;
         each.flags.emplace_back(0, "none");
         for (const attractor_row& row : map.attractors) {
             if (row.label != 0) each.flags.emplace_back(row.label, row.name);
