@@ -22,7 +22,8 @@ double seconds_of(const timeval& time) {
 
 [[noreturn]] void become(const std::vector<std::string>& command, int output) {
     std::vector<char*> arguments;
-    for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+    for (const std::string& argument : command)
+        arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
     ::dup2(output, STDOUT_FILENO);
     ::execv(arguments[0], arguments.data());
@@ -61,7 +62,8 @@ child_result run_child(const std::vector<std::string>& command) {
     result.processor_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     result.peak_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
     if (result.exit_code != 0) {
-        throw std::runtime_error(fmt::format("{} ended with {}", fmt::join(command, " "), result.exit_code));
+        throw std::runtime_error(
+            fmt::format("{} ended with {}", fmt::join(command, " "), result.exit_code));
     }
     return result;
 }

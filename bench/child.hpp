@@ -34,14 +34,14 @@ program_and_scene arguments_of(int argc, char** argv);
 
 /// A new empty directory, removed at the end.
 class scratch_directory {
-  public:
+public:
     scratch_directory();
     ~scratch_directory();
     scratch_directory(const scratch_directory&) = delete;
     scratch_directory& operator=(const scratch_directory&) = delete;
     const std::filesystem::path& path() const { return path_; }
 
-  private:
+private:
     std::filesystem::path path_;
 };
 

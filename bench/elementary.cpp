@@ -1,5 +1,6 @@
 // What does one elementary function cost per element on each target, next to the C library's?
-// Arguments in the first-level cache, one thread; sin_cos gives both and adds them, the same for libm.
+// Arguments in the first-level cache, one thread; sin_cos gives both and adds them, the same for
+// libm.
 #include "bench/elementary.hpp"
 #include "bench/report.hpp"
 #include "host/run/backends.hpp"
@@ -61,8 +62,8 @@ struct alignas(64) arrays {
     std::array<double, n_elements> x, y, out;
 };
 
-/// Arguments that the models meet: angles, rates and lengths of order one to a hundred, of either sign
-/// where the function takes them.
+/// Arguments that the models meet: angles, rates and lengths of order one to a hundred, of either
+/// sign where the function takes them.
 void fill(arrays& data, std::string_view function) {
     std::mt19937_64 bits(7);
     const auto uniform = [&](double low, double high) {

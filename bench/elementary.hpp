@@ -1,5 +1,5 @@
-// The elementary functions of one target as array functions, so that a program compiled for the least
-// processor can time them.
+// The elementary functions of one target as array functions, so that a program compiled for the
+// least processor can time them.
 #pragma once
 
 #include <cstddef>

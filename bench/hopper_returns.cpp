@@ -51,7 +51,8 @@ lane_statistics hopper_returns::run(backend which, bool is_timed, bool wants_bou
     ensemble_request request;
     request.n_cells = size();
     request.columns[0] = {starts.data(), 1, size()};
-    for (std::size_t p = 0; p < parameters.size(); ++p) request.parameters[p] = {&parameters[p], 1, 1};
+    for (std::size_t p = 0; p < parameters.size(); ++p)
+        request.parameters[p] = {&parameters[p], 1, 1};
     request.state[0] = speeds.data();
     request.outcome = ends.data();
     if (is_timed) request.time = times.data();

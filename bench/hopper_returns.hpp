@@ -1,5 +1,5 @@
-// One return of the passive hopper from many lift-off speeds: the work that the return-map benchmarks
-// time, its results, and what they should be (50 digits).
+// One return of the passive hopper from many lift-off speeds: the work that the return-map
+// benchmarks time, its results, and what they should be (50 digits).
 #pragma once
 
 #include "kernels/contract/entry.hpp"
@@ -14,10 +14,10 @@ namespace hopscotch::bench {
 struct hopper_returns {
     double mass_ratio = 1.0;
     std::vector<double> starts;
-    std::vector<double> speeds;        // f(alpha)
-    std::vector<double> times;         // of the return, where asked for
+    std::vector<double> speeds;  // f(alpha)
+    std::vector<double> times;   // of the return, where asked for
     std::vector<double> bounces;
-    std::vector<std::uint8_t> ends;    // outcome codes
+    std::vector<std::uint8_t> ends;  // outcome codes
 
     hopper_returns(double mass, std::vector<double> speeds_at_lift_off);
     std::size_t size() const { return starts.size(); }
@@ -27,7 +27,7 @@ struct hopper_returns {
     /// Bounces of every return; gives the number of flights, one more than bounces in each return.
     double count_flights();
 
-  private:
+private:
     lane_statistics run(backend which, bool is_timed, bool wants_bounces);
 };
 
@@ -44,13 +44,14 @@ struct true_return {
     double speed_rest = 0.0;
     double time = 0.0;
     double bounces = 0.0;
-    double slope = 0.0;    // f'(alpha)
+    double slope = 0.0;  // f'(alpha)
 };
 true_return truth_of(double start, double mass_ratio);
 
 /// How far a result is from the truth.
 struct return_error {
-    double relative;  // over the larger of |f| and |f'| alpha: one relative rounding of the start is 1
+    double
+        relative;  // over the larger of |f| and |f'| alpha: one relative rounding of the start is 1
     double rounding;  // over the larger of ulp(f) and |f'| ulp(alpha)
     double absolute;
 };

@@ -1,6 +1,6 @@
-// Does memory stay bounded by the tiles in flight, whatever the map's size? Peak resident set of strips
-// of a 16384 cells wide map, one and four tile rows high, and what --dry-run says of 16384 x 16384.
-// Usage: memory PROGRAM SCENE
+// Does memory stay bounded by the tiles in flight, whatever the map's size? Peak resident set of
+// strips of a 16384 cells wide map, one and four tile rows high, and what --dry-run says of 16384 x
+// 16384. Usage: memory PROGRAM SCENE
 #include "bench/child.hpp"
 #include "bench/report.hpp"
 
@@ -17,16 +17,19 @@ constexpr int width = 16384;
 constexpr double mebibyte = 1024.0 * 1024.0;
 
 std::vector<std::string> command_for(const program_and_scene& given, int rows) {
-    return {given.program,          "run",
-            given.scene,            fmt::format("grid.axis[0].cells={}", rows),
-            fmt::format("grid.axis[1].cells={}", width), "accuracy.audit_cells=0"};
+    return {given.program,
+            "run",
+            given.scene,
+            fmt::format("grid.axis[0].cells={}", rows),
+            fmt::format("grid.axis[1].cells={}", width),
+            "accuracy.audit_cells=0"};
 }
 
 void run_strip(const program_and_scene& given, int rows) {
     const scratch_directory scratch;
     std::vector<std::string> command = command_for(given, rows);
-    for (const std::string& word : {std::string("--quiet"), std::string("-o"),
-                                    (scratch.path() / "map.h5").string()}) {
+    for (const std::string& word :
+         {std::string("--quiet"), std::string("-o"), (scratch.path() / "map.h5").string()}) {
         command.push_back(word);
     }
     const child_result child = run_child(command);

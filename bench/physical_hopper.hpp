@@ -1,6 +1,6 @@
-// The passive hopper as someone with a general ODE solver would write it: physical state, right-hand
-// sides, events and resets, and one return from lift-off to lift-off. The solver is the caller's.
-// Source: models/passive_hopper.md section 2, CPRR Eqs (2), (5).
+// The passive hopper as someone with a general ODE solver would write it: physical state,
+// right-hand sides, events and resets, and one return from lift-off to lift-off. The solver is the
+// caller's. Source: models/passive_hopper.md section 2, CPRR Eqs (2), (5).
 #pragma once
 
 #include <array>
@@ -31,8 +31,7 @@ struct physical_hopper {
     }
     /// Square of the lift-off speed by energy: contact in closed form.
     double lift_off_energy(const contact_state& y) const {
-        return y[1] * y[1] +
-               (y[0] - 1.0) * (mass_ratio * (y[0] + 1.0) + 2.0) / (1.0 + mass_ratio);
+        return y[1] * y[1] + (y[0] - 1.0) * (mass_ratio * (y[0] + 1.0) + 2.0) / (1.0 + mass_ratio);
     }
 };
 

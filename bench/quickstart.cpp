@@ -1,6 +1,7 @@
-// How many cells per second does the quickstart scene give, file written, and where does the time go?
-// Runs `hopscotch run` on 1, 2, 4 ... threads for every backend of the processor, and takes the same map
-// apart in this process on one thread: compute, compress, write. Usage: quickstart PROGRAM SCENE
+// How many cells per second does the quickstart scene give, file written, and where does the time
+// go? Runs `hopscotch run` on 1, 2, 4 ... threads for every backend of the processor, and takes the
+// same map apart in this process on one thread: compute, compress, write. Usage: quickstart PROGRAM
+// SCENE
 #include "analysis/labels/plan.hpp"
 #include "bench/child.hpp"
 #include "bench/report.hpp"
@@ -24,7 +25,8 @@ constexpr int n_repeats = 5;
 std::vector<std::string_view> usable_backends(const scene& scene) {
     std::vector<std::string_view> names;
     for (const backend which : {backend::avx512, backend::avx2}) {
-        if (scene.model->has(which) && reason_against(which).empty()) names.push_back(name_of(which));
+        if (scene.model->has(which) && reason_against(which).empty())
+            names.push_back(name_of(which));
     }
     if (names.empty()) names.push_back(name_of(backend::scalar));
     return names;
@@ -38,8 +40,9 @@ std::vector<int> thread_counts() {
     return counts;
 }
 
-/// `hopscotch run` as a user types it; cells per second of the part that `run` itself times (compute,
-/// compress, write tiles), and of the whole process (also audit, packing the file, picture).
+/// `hopscotch run` as a user types it; cells per second of the part that `run` itself times
+/// (compute, compress, write tiles), and of the whole process (also audit, packing the file,
+/// picture).
 void run_program(const program_and_scene& given, std::string_view backend_name, int n_threads,
                  double n_cells) {
     std::vector<double> rates;
@@ -49,9 +52,17 @@ void run_program(const program_and_scene& given, std::string_view backend_name, 
         for (const bool is_audited : {false, true}) {
             const scratch_directory scratch;
             const std::string file = (scratch.path() / "map.h5").string();
-            std::vector<std::string> command{given.program, "run", given.scene, "--quiet", "--force",
-                                             "-o", file, "--backend", std::string(backend_name),
-                                             "--threads", std::to_string(n_threads)};
+            std::vector<std::string> command{given.program,
+                                             "run",
+                                             given.scene,
+                                             "--quiet",
+                                             "--force",
+                                             "-o",
+                                             file,
+                                             "--backend",
+                                             std::string(backend_name),
+                                             "--threads",
+                                             std::to_string(n_threads)};
             if (!is_audited) command.push_back("accuracy.audit_cells=0");
             const child_result child = run_child(command);
             const std::string summary = text_of_file(scratch.path() / "map.json");
@@ -70,10 +81,11 @@ void run_program(const program_and_scene& given, std::string_view backend_name, 
         .add("wall_seconds_without_audit", median(walls_unaudited))
         .add("cells_per_second_of_wall", n_cells / median(walls))
         .print();
-    fmt::print("{:<7} {:>2} threads  {:.3g} cells/s (best {:.3g}); whole process {:.2f} s, {:.2f} s "
-               "without audit\n",
-               backend_name, n_threads, per_second, quantile(rates, 1.0), median(walls),
-               median(walls_unaudited));
+    fmt::print(
+        "{:<7} {:>2} threads  {:.3g} cells/s (best {:.3g}); whole process {:.2f} s, {:.2f} s "
+        "without audit\n",
+        backend_name, n_threads, per_second, quantile(rates, 1.0), median(walls),
+        median(walls_unaudited));
 }
 
 double since(std::chrono::steady_clock::time_point begin) {
@@ -123,9 +135,10 @@ void take_apart(const scene& scene, std::string_view backend_name) {
         .add("write_ns_per_cell", ns(3))
         .add("lane_efficiency", lanes.efficiency())
         .print();
-    fmt::print("{:<7} parts, 1 thread: compute {:.1f}, compress {:.1f}, write {:.1f} ns per cell; plan "
-               "{:.3f} s; lanes {:.1f} % full\n",
-               backend_name, ns(1), ns(2), ns(3), median(seconds[0]), 100.0 * lanes.efficiency());
+    fmt::print(
+        "{:<7} parts, 1 thread: compute {:.1f}, compress {:.1f}, write {:.1f} ns per cell; plan "
+        "{:.3f} s; lanes {:.1f} % full\n",
+        backend_name, ns(1), ns(2), ns(3), median(seconds[0]), 100.0 * lanes.efficiency());
 }
 
 }  // namespace

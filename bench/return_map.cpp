@@ -49,8 +49,8 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
     return std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-void report(double mass, const timed_kernel& kernel, const std::vector<double>& seconds, double flights,
-            const accuracy& error, bool is_identical) {
+void report(double mass, const timed_kernel& kernel, const std::vector<double>& seconds,
+            double flights, const accuracy& error, bool is_identical) {
     const auto n = static_cast<double>(n_starts);
     const double per_flight = 1e9 * median(seconds) / flights;
     const double fastest = 1e9 * quantile(seconds, 0.0) / flights;
@@ -71,11 +71,12 @@ void report(double mass, const timed_kernel& kernel, const std::vector<double>& 
         .add("wrong_outcomes", static_cast<double>(error.n_wrong))
         .add("bit_identical_to_first", is_identical)
         .print();
-    fmt::print("{:<7} M {:<3} {:<13} {:7.1f} ns per flight (fastest {:.1f}), {:7.1f} ns per return; "
-               "error {:.1e} relative, {:.1f} roundings at most, {} wrong{}\n",
-               name_of(kernel.which), mass, kernel.is_timed ? "with times" : "without times",
-               per_flight, fastest, 1e9 * median(seconds) / n, error.worst_relative,
-               error.worst_rounding, error.n_wrong, is_identical ? "" : ", NOT bit identical");
+    fmt::print(
+        "{:<7} M {:<3} {:<13} {:7.1f} ns per flight (fastest {:.1f}), {:7.1f} ns per return; "
+        "error {:.1e} relative, {:.1f} roundings at most, {} wrong{}\n",
+        name_of(kernel.which), mass, kernel.is_timed ? "with times" : "without times", per_flight,
+        fastest, 1e9 * median(seconds) / n, error.worst_relative, error.worst_rounding,
+        error.n_wrong, is_identical ? "" : ", NOT bit identical");
 }
 
 void measure(double mass) {

@@ -1,5 +1,5 @@
-// SUNDIALS CVODE as the solver of the physical hopper: Adams with fixed-point iteration and CVODE's own
-// rootfinding (Illinois), which knows that a root at the launch itself does not count.
+// SUNDIALS CVODE as the solver of the physical hopper: Adams with fixed-point iteration and CVODE's
+// own rootfinding (Illinois), which knows that a root at the launch itself does not count.
 #pragma once
 
 #include "bench/physical_hopper.hpp"
@@ -16,7 +16,7 @@ namespace hopscotch::bench {
 /// One CVODE memory: N states, some events.
 template <int N>
 class cvode_problem {
-  public:
+public:
     using state = std::array<double, N>;
 
     cvode_problem(physical_hopper& hopper, CVRhsFn rates, double tolerance, CVRootFn events,
@@ -68,7 +68,7 @@ class cvode_problem {
         return found;
     }
 
-  private:
+private:
     static void check(int code) {
         if (code < 0) throw std::runtime_error("CVODE refuses its settings");
     }
@@ -80,7 +80,7 @@ class cvode_problem {
 };
 
 class cvode_solver {
-  public:
+public:
     static constexpr const char* name = "SUNDIALS CVODE Adams + rootfinding";
 
     cvode_solver(physical_hopper hopper, double tolerance)
@@ -97,7 +97,7 @@ class cvode_solver {
         return contact_.events_found()[0] != 0 ? return_end::lifted : return_end::stuck;
     }
 
-  private:
+private:
     static const physical_hopper& hopper_of(void* data) {
         return *static_cast<const physical_hopper*>(data);
     }

@@ -1,5 +1,6 @@
-// Boost.odeint as the solver of the physical hopper: Dormand-Prince 5 with dense output, an event where
-// the gap's sign has changed between accepted steps, located by bisection on the dense output.
+// Boost.odeint as the solver of the physical hopper: Dormand-Prince 5 with dense output, an event
+// where the gap's sign has changed between accepted steps, located by bisection on the dense
+// output.
 #pragma once
 
 #include "bench/physical_hopper.hpp"
@@ -9,7 +10,7 @@
 namespace hopscotch::bench {
 
 class odeint_solver {
-  public:
+public:
     static constexpr const char* name = "Boost.odeint dopri5 dense output + bisection";
 
     odeint_solver(physical_hopper hopper, double tolerance)
@@ -63,7 +64,7 @@ class odeint_solver {
         return return_end::lost;
     }
 
-  private:
+private:
     static constexpr double first_step = 0.1;
     using flight_stepper = boost::numeric::odeint::result_of::make_dense_output<
         boost::numeric::odeint::runge_kutta_dopri5<flight_state>>::type;

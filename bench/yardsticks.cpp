@@ -1,10 +1,10 @@
-// How do Boost.odeint and SUNDIALS CVODE do the passive hopper's flights, and how much faster and more
-// right are the kernels? Same starts, same core, same run, in turn; work against precision.
+// How do Boost.odeint and SUNDIALS CVODE do the passive hopper's flights, and how much faster and
+// more right are the kernels? Same starts, same core, same run, in turn; work against precision.
 //
-// Two jobs, each against the kernel that does the same: flights with contact in closed form by energy
-// (kernel without times), and flights with contact integrated to lift-off (kernel with times).
-// A result is wrong where the orbit gets stuck instead of lifting off (or the other way round), or where
-// the number of impacts is not the true one: an event missed, doubled or invented.
+// Two jobs, each against the kernel that does the same: flights with contact in closed form by
+// energy (kernel without times), and flights with contact integrated to lift-off (kernel with
+// times). A result is wrong where the orbit gets stuck instead of lifting off (or the other way
+// round), or where the number of impacts is not the true one: an event missed, doubled or invented.
 #include "bench/hopper_returns.hpp"
 #include "bench/report.hpp"
 #include "host/run/backends.hpp"
@@ -24,7 +24,8 @@ namespace hopscotch::bench {
 namespace {
 
 constexpr std::size_t n_starts = 600;
-constexpr int n_kernel_calls = 20;  // per timing, so that the fast side is timed as long as a clock needs
+constexpr int n_kernel_calls =
+    20;  // per timing, so that the fast side is timed as long as a clock needs
 constexpr int n_rounds = 5;
 
 /// What one solver made of all starts.
@@ -74,12 +75,12 @@ void print(const work_precision& row, double mass) {
         .add("time_error_99", quantile(row.time_errors, 0.99))
         .add("time_error_worst", quantile(row.time_errors, 1.0))
         .print();
-    fmt::print("M {:<3} {:<44} {:>7} {:9.3f} / {:9.3f} us per flight (contact closed / timed), "
-               "wrong {:.2f} %, error of f median {:.1e} 99 % {:.1e}, of time {:.1e} {:.1e}\n",
-               mass, row.name, row.tolerance > 0.0 ? fmt::format("{:.0e}", row.tolerance) : "exact",
-               row.us_closed, row.us_integrated, 100.0 * wrong, median(row.speed_errors),
-               quantile(row.speed_errors, 0.99), median(row.time_errors),
-               quantile(row.time_errors, 0.99));
+    fmt::print(
+        "M {:<3} {:<44} {:>7} {:9.3f} / {:9.3f} us per flight (contact closed / timed), "
+        "wrong {:.2f} %, error of f median {:.1e} 99 % {:.1e}, of time {:.1e} {:.1e}\n",
+        mass, row.name, row.tolerance > 0.0 ? fmt::format("{:.0e}", row.tolerance) : "exact",
+        row.us_closed, row.us_integrated, 100.0 * wrong, median(row.speed_errors),
+        quantile(row.speed_errors, 0.99), median(row.time_errors), quantile(row.time_errors, 0.99));
 }
 
 void print_ratio(const work_precision& theirs, const work_precision& ours, double mass,
@@ -102,7 +103,7 @@ void print_ratio(const work_precision& theirs, const work_precision& ours, doubl
 
 /// Everything that is measured at one mass ratio. Every piece of work runs once per round.
 class comparison {
-  public:
+public:
     explicit comparison(double mass) : work_(mass, uniform_starts(n_starts)) {
         flights_ = work_.count_flights();
         for (const double alpha : work_.starts) truth_.push_back(truth_of(alpha, mass));
@@ -130,7 +131,7 @@ class comparison {
         }
     }
 
-  private:
+private:
     void add_kernel(backend which) {
         work_precision row{.name = "hopscotch " + std::string(name_of(which))};
         for (const bool is_timed : {false, true}) {

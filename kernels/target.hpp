@@ -1,6 +1,6 @@
 // Names the instruction set a translation unit is compiled for. Every kernel header lives in
-// `namespace hopscotch::inline HOPSCOTCH_TARGET`, so that objects built with different machine flags
-// never share a symbol. CMake defines the name per object; host code takes `generic`.
+// `namespace hopscotch::inline HOPSCOTCH_TARGET`, so that objects built with different machine
+// flags never share a symbol. CMake defines the name per object; host code takes `generic`.
 #pragma once
 
 #ifndef HOPSCOTCH_TARGET

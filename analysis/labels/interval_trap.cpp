@@ -13,7 +13,8 @@ constexpr int n_transient = 20000;
 constexpr int longest_period = 64;
 constexpr double periodic_distance = 1e-9;  // relative, with every proper divisor clearly away
 
-/// The unstable fixed point left of the base, where added energy has put it; the base itself without.
+/// The unstable fixed point left of the base, where added energy has put it; the base itself
+/// without.
 std::optional<double> lower_end(const return_map_samples& map, const map_branch& branch,
                                 double floor) {
     if (branch.base == 0.0) {  // the resting state itself is no hop; the smallest hops decide

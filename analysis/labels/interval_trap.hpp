@@ -1,6 +1,7 @@
-// Traps of one-dimensional return maps whose branches have a hump above a (possibly shifted) semi-stable
-// point: the immediate basin between the unstable fixed point and the hump's right preimage of it, found
-// numerically, and what attracts inside. Source: models/passive_hopper.md section 5, CPRR Fig. 8.
+// Traps of one-dimensional return maps whose branches have a hump above a (possibly shifted)
+// semi-stable point: the immediate basin between the unstable fixed point and the hump's right
+// preimage of it, found numerically, and what attracts inside. Source: models/passive_hopper.md
+// section 5, CPRR Fig. 8.
 #pragma once
 
 #include "analysis/labels/return_map_samples.hpp"

@@ -36,8 +36,7 @@ one_sided_stability one_sided(const return_map_samples& map, const map_branch& b
         };
     };
     if (result.right.attracts) {
-        result.right.extent =
-            last_of_interval(branch.base, branch.end, stays(1.0)) - branch.base;
+        result.right.extent = last_of_interval(branch.base, branch.end, stays(1.0)) - branch.base;
     }
     if (result.left.attracts) {
         result.left.extent = branch.base - last_of_interval(branch.base, floor, stays(-1.0));
@@ -60,14 +59,14 @@ void add_immediate_basins(const scene& scene, label_plan& plan) {
         for (std::size_t r = 0; r < rows.size(); ++r) {
             map_branch branch{};
             map_branch before{};
-            for (int k = 0; scene.model->branch(k, branch) && branch.base < rows[r]->points[0]; ++k) {
+            for (int k = 0; scene.model->branch(k, branch) && branch.base < rows[r]->points[0];
+                 ++k) {
                 before = branch;
             }
             if (branch.base != rows[r]->points[0]) continue;
             const one_sided_stability found = one_sided(map, branch, before.end);
-            plan.immediate[p * rows.size() + r] = {branch.base - found.left.extent,
-                                                   branch.base + found.right.extent,
-                                                   rows[r]->label};
+            plan.immediate[p * rows.size() + r] = {
+                branch.base - found.left.extent, branch.base + found.right.extent, rows[r]->label};
         }
     }
 }

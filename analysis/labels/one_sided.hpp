@@ -1,5 +1,6 @@
-// One-sided stability of the base points of a one-dimensional return map: on which side they attract, by
-// which law, and how far their immediate basin reaches. Source: models/passive_hopper.md section 4.
+// One-sided stability of the base points of a one-dimensional return map: on which side they
+// attract, by which law, and how far their immediate basin reaches. Source:
+// models/passive_hopper.md section 4.
 #pragma once
 
 #include "analysis/labels/return_map_samples.hpp"
@@ -8,12 +9,14 @@
 
 namespace hopscotch {
 
-/// One side of a fixed point x*: with distance d, |P(x* +- d) - (x* +- d)| ~ coefficient d^exponent.
+/// One side of a fixed point x*: with distance d, |P(x* +- d) - (x* +- d)| ~ coefficient
+/// d^exponent.
 struct stability_side {
     bool attracts = false;
     double coefficient = 0.0;
     double exponent = 0.0;
-    double extent = 0.0;  // of the immediate basin: an interval from x* that the map sends into itself
+    double extent =
+        0.0;  // of the immediate basin: an interval from x* that the map sends into itself
 };
 
 struct one_sided_stability {
@@ -25,9 +28,11 @@ struct one_sided_stability {
 /// Both sides of the base of a branch.
 ///
 /// \param floor  end of the branch before: how far the left side reaches
-/// \error        extents are good to about 1e-12 of the point (the map's own rounding next to it); the law is
+/// \error        extents are good to about 1e-12 of the point (the map's own rounding next to it);
+/// the law is
 ///               a fit at distances 1e-6 and 1e-5
-one_sided_stability one_sided(const return_map_samples& map, const map_branch& branch, double floor);
+one_sided_stability one_sided(const return_map_samples& map, const map_branch& branch,
+                              double floor);
 
 /// The immediate basins of every branch's base at every parameter point of a one_sided scene.
 void add_immediate_basins(const scene& scene, label_plan& plan);

@@ -15,7 +15,8 @@
 namespace hopscotch {
 namespace {
 
-// Okabe and Ito's colours (distinguishable with every kind of colour vision), then again in lighter tones.
+// Okabe and Ito's colours (distinguishable with every kind of colour vision), then again in lighter
+// tones.
 constexpr std::uint32_t palette[] = {0x9aa0a6, 0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7, 0x56b4e9,
                                      0xd55e00, 0xf0e442, 0x7f5fa8, 0x8c6d3f, 0x66c2a5, 0xfc8d62,
                                      0x8da0cb, 0xe78ac3, 0xa6d854, 0xffd92f};
@@ -37,8 +38,8 @@ double highest_start(const scene& scene) {
     return highest;
 }
 
-/// Labels of the model's certificate that a start of this map can reach; all of them where the start is a
-/// state of more than one column.
+/// Labels of the model's certificate that a start of this map can reach; all of them where the
+/// start is a state of more than one column.
 label_plan plan_by_certificate(const scene& scene) {
     label_plan plan;
     plan.decided_by = decision::certificate;
@@ -90,10 +91,14 @@ struct found_trap {
     }
     std::string name() const {
         switch (trap.kind) {
-            case attractor_kind::resting: return "hopping dies";
-            case attractor_kind::fixed_point: return fmt::format("fixed point {}", branch);
-            case attractor_kind::cycle: return fmt::format("period {} at {}", trap.period, branch);
-            case attractor_kind::chaotic: return fmt::format("chaotic at {}", branch);
+            case attractor_kind::resting:
+                return "hopping dies";
+            case attractor_kind::fixed_point:
+                return fmt::format("fixed point {}", branch);
+            case attractor_kind::cycle:
+                return fmt::format("period {} at {}", trap.period, branch);
+            case attractor_kind::chaotic:
+                return fmt::format("chaotic at {}", branch);
         }
         return {};
     }
@@ -107,7 +112,8 @@ std::vector<found_trap> traps_at(const scene& scene, std::size_t point,
     double floor = 0.0;
     map_branch branch{};
     if (scene.model->branch(1, branch) && only_sinks(map, branch.base)) {
-        found.push_back({point, 0, {0.0, std::nextafter(branch.base, 0.0), attractor_kind::resting}});
+        found.push_back(
+            {point, 0, {0.0, std::nextafter(branch.base, 0.0), attractor_kind::resting}});
     }
     for (int k = 0; scene.model->branch(k, branch); ++k) {
         if (branch.base > highest + 1.0) break;
@@ -148,8 +154,9 @@ label_plan plan_by_intervals(const scene& scene) {
     for (const auto& at_point : found) {
         most = std::max(most, at_point.size());
         for (const found_trap& trap : at_point) {
-            if (std::none_of(kinds.begin(), kinds.end(),
-                             [&](const found_trap& other) { return other.rank() == trap.rank(); })) {
+            if (std::none_of(kinds.begin(), kinds.end(), [&](const found_trap& other) {
+                    return other.rank() == trap.rank();
+                })) {
                 kinds.push_back(trap);
             }
         }
@@ -159,7 +166,8 @@ label_plan plan_by_intervals(const scene& scene) {
 
     found_trap resting{};
     resting.trap.kind = attractor_kind::resting;  // label 1 also names orbits that end stuck
-    if (kinds.empty() || kinds.front().rank() != resting.rank()) kinds.insert(kinds.begin(), resting);
+    if (kinds.empty() || kinds.front().rank() != resting.rank())
+        kinds.insert(kinds.begin(), resting);
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         plan.attractors.push_back(row_of(kinds[i], static_cast<int>(i) + 1));
     }
@@ -167,9 +175,9 @@ label_plan plan_by_intervals(const scene& scene) {
     plan.traps.assign(points.size() * most, {unbounded, -unbounded, 0});
     for (std::size_t i = 0; i < points.size(); ++i) {
         for (std::size_t j = 0; j < found[i].size(); ++j) {
-            const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const found_trap& other) {
-                return other.rank() == found[i][j].rank();
-            });
+            const auto kind = std::find_if(
+                kinds.begin(), kinds.end(),
+                [&](const found_trap& other) { return other.rank() == found[i][j].rank(); });
             plan.traps[i * most + j] = {found[i][j].trap.lowest, found[i][j].trap.highest,
                                         static_cast<std::int32_t>(kind - kinds.begin()) + 1};
         }
@@ -207,7 +215,8 @@ std::vector<std::size_t> parameter_axes(const scene& scene) {
 label_plan plan_labels(const scene& scene) {
     if (!scene.question.has_labels) return {};
     const parameter_extremes extremes = extremes_of(scene);
-    const variant_query query{extremes.lowest.data(), extremes.highest.data(), scene.options.data(), true};
+    const variant_query query{extremes.lowest.data(), extremes.highest.data(), scene.options.data(),
+                              true};
     std::optional<label_plan> plan;
     if (scene.model->certificate_covers && scene.model->certificate_covers(query)) {
         plan = plan_by_certificate(scene);

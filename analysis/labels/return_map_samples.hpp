@@ -12,7 +12,7 @@
 namespace hopscotch {
 
 class return_map_samples {
-  public:
+public:
     /// \param parameters  one per parameter of the model
     return_map_samples(const scene& scene, std::vector<double> parameters);
 
@@ -20,7 +20,7 @@ class return_map_samples {
     std::vector<double> at(std::span<const double> x, std::uint32_t returns = 1) const;
     double at(double x, std::uint32_t returns = 1) const;
 
-  private:
+private:
     const scene& scene_;
     std::vector<double> parameters_;
     int variant_ = 0;

@@ -10,8 +10,8 @@ namespace hopscotch {
 inline constexpr int n_geometric = 160;  // samples per side next to the base, from 1e-13 on
 inline constexpr int n_even = 800;       // samples over the rest of the branch
 
-/// Bisects between `inside`, where the condition holds, and `outside`, where it does not; returns the
-/// last point that still holds.
+/// Bisects between `inside`, where the condition holds, and `outside`, where it does not; returns
+/// the last point that still holds.
 template <class Condition>
 double last_inside(double inside, double outside, const Condition& holds) {
     for (int i = 0; i < 200; ++i) {

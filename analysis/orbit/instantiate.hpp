@@ -28,13 +28,13 @@ constexpr int n_derivatives() {
 /// One trajectory while it is iterated one return at a time.
 template <class Model, int Variant, class Real>
 class single_orbit {
-  public:
+public:
     explicit single_orbit(const orbit_row& row) : row_(row) {}
 
     template <class Watch>
     void run(const Real* columns, const Real* parameters, Watch& watch) {
-        progress<Real> done = Model::template begin<Variant>(lane, row_.section, columns, parameters,
-                                                             row_.options, watch);
+        progress<Real> done = Model::template begin<Variant>(lane, row_.section, columns,
+                                                             parameters, row_.options, watch);
         book(done);
         while (!is_over()) {
             done = Model::template step<Variant>(lane, true, watch);
@@ -48,7 +48,7 @@ class single_orbit {
     std::uint32_t returns = 0;
     bool has_state = true;
 
-  private:
+private:
     const orbit_row& row_;
     double steps_ = 0.0;
 
@@ -74,8 +74,8 @@ class single_orbit {
     void decide() {
         if (row_.decided_by == decision::certificate) {
             if constexpr (certifies<Model, Real>) {
-                label = static_cast<int>(
-                    to_double(primal(Model::template certificate<Variant>(lane))));
+                label =
+                    static_cast<int>(to_double(primal(Model::template certificate<Variant>(lane))));
             }
         } else if (row_.decided_by == decision::intervals) {
             Real columns[most_columns];
@@ -110,7 +110,8 @@ orbit_answer plain_answer(const orbit_row& row) {
     answer.time = print_real(orbit.lane.time);
     const auto& section = Model::info.sections[static_cast<std::size_t>(row.section)];
     const auto& ends_on = Model::info.sections[static_cast<std::size_t>(section.returns_to)];
-    const bool has_state = orbit.has_state && (section.returns_to == row.section || orbit.returns > 0);
+    const bool has_state =
+        orbit.has_state && (section.returns_to == row.section || orbit.returns > 0);
     std::array<Real, most_columns> state;
     Model::read_state(orbit.lane, section.returns_to, state.data());
     for (std::size_t c = 0; c < ends_on.columns.size(); ++c) {
@@ -213,8 +214,8 @@ orbit_answer trace_orbit(const orbit_row& row, orbit_observer& observer) {
 }
 
 template <class Model>
-inline constexpr orbit_functions orbit_table{
-    &run_orbit<Model, double>, &run_orbit<Model, double_double<double>>, &run_orbit<Model, real50>,
-    &trace_orbit<Model>};
+inline constexpr orbit_functions orbit_table{&run_orbit<Model, double>,
+                                             &run_orbit<Model, double_double<double>>,
+                                             &run_orbit<Model, real50>, &trace_orbit<Model>};
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

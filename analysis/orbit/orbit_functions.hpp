@@ -1,6 +1,6 @@
-// Single orbits of a model in any arithmetic: what `eval --precision`, `--derivative`, `trace`, `replay`
-// and the audit call. Filled per model by a generated unit; numbers travel as decimal text so that no
-// precision is lost on the way.
+// Single orbits of a model in any arithmetic: what `eval --precision`, `--derivative`, `trace`,
+// `replay` and the audit call. Filled per model by a generated unit; numbers travel as decimal text
+// so that no precision is lost on the way.
 #pragma once
 
 #include "kernels/contract/info.hpp"
@@ -13,7 +13,8 @@
 
 namespace hopscotch {
 
-/// One orbit to compute. Columns and parameters are decimals of any length, in the order of model_info.
+/// One orbit to compute. Columns and parameters are decimals of any length, in the order of
+/// model_info.
 struct orbit_row {
     int section = 0;
     const int* options = nullptr;
@@ -36,18 +37,19 @@ struct orbit_answer {
     std::uint32_t returns = 0;
     std::uint64_t events = 0;
     std::string time;
-    std::vector<std::string> columns;     // of the section the returns end on; empty where there is no state
+    std::vector<std::string>
+        columns;  // of the section the returns end on; empty where there is no state
     std::vector<std::string> extras;
     std::vector<std::string> derivative;  // d(column i)_d(start column j), row by row
 };
 
-/// Watches one orbit (see kernels/contract/watch.hpp). `sampler(t, columns)` gives the state t after the
-/// beginning of the phase.
+/// Watches one orbit (see kernels/contract/watch.hpp). `sampler(t, columns)` gives the state t
+/// after the beginning of the phase.
 struct orbit_observer {
     struct sampler {
         virtual void state_at(double t, double* columns) const = 0;
 
-      protected:
+    protected:
         ~sampler() = default;
     };
     virtual void phase(const char* mode, double start_time, double duration, const sampler& at) = 0;
@@ -55,7 +57,7 @@ struct orbit_observer {
                        const char* mode_entered, const double* before, const double* after,
                        double loss) = 0;
 
-  protected:
+protected:
     ~orbit_observer() = default;
 };
 

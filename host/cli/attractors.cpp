@@ -65,10 +65,11 @@ std::vector<sided_row> sided_rows(const scene& scene, const label_plan& plan) {
         double floor = 0.0;
         map_branch branch{};
         for (int k = 0; scene.model->branch(k, branch); ++k) {
-            const auto row = std::find_if(
-                plan.attractors.begin(), plan.attractors.end(), [&](const attractor_row& attractor) {
-                    return attractor.points == std::vector<double>{branch.base};
-                });
+            const auto row =
+                std::find_if(plan.attractors.begin(), plan.attractors.end(),
+                             [&](const attractor_row& attractor) {
+                                 return attractor.points == std::vector<double>{branch.base};
+                             });
             if (row == plan.attractors.end() && k > 0) break;
             if (row != plan.attractors.end()) {
                 rows.push_back({shown, row->name, one_sided(map, branch, floor)});
@@ -85,7 +86,8 @@ std::string side_text(const stability_side& side) {
 
 std::string sided_table(const scene& scene, const std::vector<sided_row>& rows) {
     constexpr std::size_t most = 12;
-    std::vector<std::vector<std::string>> table{{"at", "name", "left", "right", "law on the right"}};
+    std::vector<std::vector<std::string>> table{
+        {"at", "name", "left", "right", "law on the right"}};
     const std::size_t stride = std::max<std::size_t>(1, rows.size() / most);
     for (std::size_t i = 0; i < rows.size(); i += stride) {
         std::string at;
@@ -104,11 +106,13 @@ std::string sided_table(const scene& scene, const std::vector<sided_row>& rows) 
 
 std::string side_json(const stability_side& side) {
     return fmt::format(
-        "{{\"attracts\": {}, \"coefficient\": {:.17g}, \"exponent\": {:.17g}, \"extent\": {:.17g}}}",
+        "{{\"attracts\": {}, \"coefficient\": {:.17g}, \"exponent\": {:.17g}, \"extent\": "
+        "{:.17g}}}",
         side.attracts, side.coefficient, side.exponent, side.extent);
 }
 
-std::string json_of(const scene& scene, const label_plan& plan, const std::vector<sided_row>& rows) {
+std::string json_of(const scene& scene, const label_plan& plan,
+                    const std::vector<sided_row>& rows) {
     std::string text = fmt::format("{{\"model\": {}, \"columns\": {}, \"attractors\": [",
                                    json_text(scene.info().name), json_texts(plan.point_columns));
     for (std::size_t i = 0; i < plan.attractors.size(); ++i) {
@@ -122,10 +126,10 @@ std::string json_of(const scene& scene, const label_plan& plan, const std::vecto
     }
     text += "\n], \"one_sided\": [";
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        text += fmt::format("{}\n  {{\"name\": {}, \"parameters\": {}, \"left\": {}, \"right\": {}}}",
-                            i == 0 ? "" : ",", json_text(rows[i].name),
-                            json_numbers(rows[i].parameters), side_json(rows[i].sides.left),
-                            side_json(rows[i].sides.right));
+        text += fmt::format(
+            "{}\n  {{\"name\": {}, \"parameters\": {}, \"left\": {}, \"right\": {}}}",
+            i == 0 ? "" : ",", json_text(rows[i].name), json_numbers(rows[i].parameters),
+            side_json(rows[i].sides.left), side_json(rows[i].sides.right));
     }
     return text + "\n]}\n";
 }

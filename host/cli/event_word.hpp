@@ -1,5 +1,5 @@
-// The event word of an orbit: one letter per event, spelt while the orbit is traced. Used by `eval` for
-// models whose extras hold such a word.
+// The event word of an orbit: one letter per event, spelt while the orbit is traced. Used by `eval`
+// for models whose extras hold such a word.
 #pragma once
 
 #include "analysis/orbit/orbit_functions.hpp"

@@ -15,8 +15,8 @@ Number* numbers(std::vector<std::byte>& buffer) {
     return reinterpret_cast<Number*>(buffer.data());  // new gives memory aligned for every number
 }
 
-/// Points the kernel's result to the layer's buffer. Periods and immediate basins are no results: they
-/// follow from the label and from the start.
+/// Points the kernel's result to the layer's buffer. Periods and immediate basins are no results:
+/// they follow from the label and from the start.
 void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::byte>& buffer) {
     switch (layer.role) {
         case layer_role::label:
@@ -83,7 +83,8 @@ void blank_states(const scene& scene, const ensemble_request& request) {
     for (std::uint64_t cell = 0; cell < request.n_cells; ++cell) {
         const auto end = static_cast<outcome>(request.outcome[cell]);
         const bool is_complete = scene.question.kind != "return_map" || end == outcome::ok;
-        if (is_complete && has_state(scene.info(), scene.section, end, request.returns[cell])) continue;
+        if (is_complete && has_state(scene.info(), scene.section, end, request.returns[cell]))
+            continue;
         for (double* const state : request.state) {
             if (state != nullptr) state[cell] = nan;
         }

@@ -19,9 +19,10 @@ std::vector<std::pair<int, std::string>> outcome_flags() {
 
 layer_plan plan(layer_role role, std::string name, number_type type, std::string unit,
                 std::string meaning, double fill, int index = 0) {
-    return {
-        {std::move(name), type, std::move(unit), std::move(meaning), fill, {}, false},
-            role, index, ""};
+    return {{std::move(name), type, std::move(unit), std::move(meaning), fill, {}, false},
+            role,
+            index,
+            ""};
 }
 
 layer_plan state_plan(const scene& scene, int index) {
@@ -51,9 +52,9 @@ std::vector<layer_plan> available_layers(const scene& scene) {
                               "period of that attractor in returns (0 = aperiodic or none)", -1.0));
     }
     if (scene.question.kind == "one_sided") {
-        layers.push_back(plan(layer_role::immediate, "immediate", number_type::int16, "1",
-                              "attractor in whose immediate one-sided basin the start lies (0 = none)",
-                              -1.0));
+        layers.push_back(
+            plan(layer_role::immediate, "immediate", number_type::int16, "1",
+                 "attractor in whose immediate one-sided basin the start lies (0 = none)", -1.0));
         layers.back().description.holds_labels = true;
     }
     layers.push_back(plan(layer_role::outcome, "outcome", number_type::uint8, "1",

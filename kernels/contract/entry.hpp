@@ -1,6 +1,6 @@
-// The kernels' public entry points: one table per model with its description, its choice of compile-time
-// variant and its ensemble functions per backend. Filled by generated instantiation units; a model is
-// found here by name, so no code ever switches on a model.
+// The kernels' public entry points: one table per model with its description, its choice of
+// compile-time variant and its ensemble functions per backend. Filled by generated instantiation
+// units; a model is found here by name, so no code ever switches on a model.
 #pragma once
 
 #include "kernels/contract/info.hpp"
@@ -11,7 +11,8 @@
 
 namespace hopscotch {
 
-struct orbit_functions;  // scalar orbits in other arithmetics, see analysis/orbit/orbit_functions.hpp
+struct orbit_functions;  // scalar orbits in other arithmetics, see
+                         // analysis/orbit/orbit_functions.hpp
 
 struct model_entry {
     const model_info* info;
@@ -22,7 +23,8 @@ struct model_entry {
     bool (*certificate_covers)(const variant_query&);
     bool (*describe_label)(int label, label_description&);
     bool (*branch)(int index, map_branch&);
-    // Tables are reached through pointers to them, so that no unit depends on another's initialisation.
+    // Tables are reached through pointers to them, so that no unit depends on another's
+    // initialisation.
     const ensemble_function* const* kernels[n_backends];  // per backend; null where not built
     const orbit_functions* const* orbits_table;
 

@@ -1,5 +1,6 @@
-// How a model describes itself to the rest of the program: parameters with units and ranges, sections
-// with their state columns, options, extras. The host reads these tables; kernels never do.
+// How a model describes itself to the rest of the program: parameters with units and ranges,
+// sections with their state columns, options, extras. The host reads these tables; kernels never
+// do.
 #pragma once
 
 #include "kernels/contract/outcome.hpp"
@@ -16,11 +17,13 @@ inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 struct range {
     double lowest = -unbounded;
     double highest = unbounded;
-    bool has_lowest = true;   // lowest itself is admissible
-    bool has_highest = true;  // highest itself is admissible (infinite ends: infinity is a legal value)
+    bool has_lowest = true;  // lowest itself is admissible
+    bool has_highest =
+        true;  // highest itself is admissible (infinite ends: infinity is a legal value)
 
     constexpr bool holds(double x) const {
-        return (has_lowest ? x >= lowest : x > lowest) && (has_highest ? x <= highest : x < highest);
+        return (has_lowest ? x >= lowest : x > lowest) &&
+               (has_highest ? x <= highest : x < highest);
     }
 };
 
@@ -90,8 +93,8 @@ struct model_info {
     std::span<const section_info> sections;  // the first one is the default
     std::span<const option_info> options;
     std::span<const extra_info> extras;
-    std::span<const outcome> outcomes;            // besides budget, not_finite, invalid_start
-    std::span<const column_info> trace_columns;   // the full physical state, as `trace` prints it
+    std::span<const outcome> outcomes;           // besides budget, not_finite, invalid_start
+    std::span<const column_info> trace_columns;  // the full physical state, as `trace` prints it
 };
 
 /// What a label that the model's own certificate gives stands for.
@@ -100,20 +103,21 @@ struct label_description {
     int index = -1;
     int period = 1;
     bool has_point = false;
-    double point = 0.0;       // of the section's first column
+    double point = 0.0;  // of the section's first column
     double multiplier = 0.0;
-    std::string_view trap;    // in words
+    std::string_view trap;  // in words
 };
 
-/// A piece on which a one-dimensional return map is continuous: from a little left of `base` (where a
-/// periodic point sits, or is born) to `end`.
+/// A piece on which a one-dimensional return map is continuous: from a little left of `base` (where
+/// a periodic point sits, or is born) to `end`.
 struct map_branch {
     double base;
     double end;
 };
 
-/// What decides the compile-time variant of a kernel: the extremes of every parameter over the whole
-/// map, the chosen options, and what the scene wants to see. Terms that are switched off cost nothing.
+/// What decides the compile-time variant of a kernel: the extremes of every parameter over the
+/// whole map, the chosen options, and what the scene wants to see. Terms that are switched off cost
+/// nothing.
 struct variant_query {
     const double* lowest;   // one per parameter
     const double* highest;  // one per parameter

@@ -1,12 +1,13 @@
-// The model contract: what a header in kernels/models/ must offer so that every backend, arithmetic,
-// command and question can use it without another file being edited.
+// The model contract: what a header in kernels/models/ must offer so that every backend,
+// arithmetic, command and question can use it without another file being edited.
 //
 //   struct my_model {
 //       static constexpr model_info info = ...;            // tables, see contract/info.hpp
-//       static constexpr int n_variants = 1;               // compile-time variants ("model only what
-//       static int variant(const variant_query&);          //  a scene needs"); chosen by the host
-//       static std::string_view refusal(const double* parameters, const int* options);
-//                                                          // why this combination is invalid, or ""
+//       static constexpr int n_variants = 1;               // compile-time variants ("model only
+//       what static int variant(const variant_query&);          //  a scene needs"); chosen by the
+//       host static std::string_view refusal(const double* parameters, const int* options);
+//                                                          // why this combination is invalid, or
+//                                                          ""
 //       template <class Real> struct lane { ...; Real time; Real events; };
 //                                                          // one trajectory; only Real members
 //       template <int Variant, class Real, class Watch>
@@ -14,8 +15,8 @@
 //                                   const Real* parameters, const int* options, Watch&);
 //       template <int Variant, class Real, class Watch>
 //       static progress<Real> step(lane<Real>&, mask_of<Real> active, Watch&);
-//       template <class Real> static void read_state(const lane<Real>&, int section, Real* columns);
-//       template <class Real> static void read_extras(const lane<Real>&, Real* extras);
+//       template <class Real> static void read_state(const lane<Real>&, int section, Real*
+//       columns); template <class Real> static void read_extras(const lane<Real>&, Real* extras);
 //       // optional: the model's own proof of where an orbit ends, for which scenes it labels every
 //       // attracted orbit, and what its labels are (false: no such label)
 //       template <int Variant, class Real> static Real certificate(const lane<Real>&);
@@ -25,11 +26,12 @@
 //       static bool branch(int index, map_branch&);
 //   };
 //
-// `begin` places a trajectory on (or flies it towards) the section; `step` performs a bounded amount of
-// work: at most one event or one integrator step. Both say lane by lane whether a return was completed
-// and whether the orbit ended. `step` is called with lanes that are idle or ended too (active = false):
-// it may compute nonsense there but must come to an end. `read_state` gives the last section state
-// reached. `certificate` gives a label > 0 once the orbit's fate is proved after a completed return.
+// `begin` places a trajectory on (or flies it towards) the section; `step` performs a bounded
+// amount of work: at most one event or one integrator step. Both say lane by lane whether a return
+// was completed and whether the orbit ended. `step` is called with lanes that are idle or ended too
+// (active = false): it may compute nonsense there but must come to an end. `read_state` gives the
+// last section state reached. `certificate` gives a label > 0 once the orbit's fate is proved after
+// a completed return.
 #pragma once
 
 #include "kernels/contract/info.hpp"
@@ -60,7 +62,7 @@ concept describes_itself = requires {
     { Model::variant(std::declval<const variant_query&>()) } -> std::convertible_to<int>;
     {
         Model::refusal(std::declval<const double*>(), std::declval<const int*>())
-    } -> std::convertible_to<std::string_view>;
+        } -> std::convertible_to<std::string_view>;
 };
 
 template <class Model, class Real>
@@ -75,7 +77,7 @@ concept begins = requires(typename Model::template lane<Real>& lane, const Real*
                           const int* options, unwatched& watch) {
     {
         Model::template begin<0>(lane, 0, numbers, numbers, options, watch)
-    } -> std::same_as<progress<Real>>;
+        } -> std::same_as<progress<Real>>;
 };
 
 template <class Model, class Real>
@@ -93,7 +95,7 @@ concept can_be_read = requires(const typename Model::template lane<Real>& lane, 
 /// A complete model for the arithmetic Real. The parts above name what is missing where it fails.
 template <class Model, class Real>
 concept model = describes_itself<Model> && has_lane<Model, Real> && begins<Model, Real> &&
-                steps<Model, Real> && can_be_read<Model, Real>;
+    steps<Model, Real> && can_be_read<Model, Real>;
 
 /// A model that can prove where an orbit ends.
 template <class Model, class Real>

@@ -38,11 +38,12 @@ enum class outcome : std::uint8_t {
 };
 
 inline constexpr std::array<std::string_view, 26> outcome_names{
-    "ok",       "attracted",  "stuck",        "rest",       "no_contact", "ground",
-    "energy_deficit", "stumble", "reverse",   "fell",       "crash",      "sinks",
-    "no_liftoff", "creep",    "over_shoulder", "off_bar",   "apex_below", "downward",
-    "invalid_gain", "no_hop", "zeno",         "escaped",    "budget",     "not_finite",
-    "unresolved_event", "invalid_start"};
+    "ok",           "attracted",      "stuck",      "rest",         "no_contact",
+    "ground",       "energy_deficit", "stumble",    "reverse",      "fell",
+    "crash",        "sinks",          "no_liftoff", "creep",        "over_shoulder",
+    "off_bar",      "apex_below",     "downward",   "invalid_gain", "no_hop",
+    "zeno",         "escaped",        "budget",     "not_finite",   "unresolved_event",
+    "invalid_start"};
 
 constexpr std::string_view name_of(outcome value) {
     return outcome_names[static_cast<std::size_t>(value)];

@@ -42,8 +42,8 @@ HOPSCOTCH_DEVICE inline Real cbrt(const Real& x) {
     return select(ordinary, result, x + x);
 }
 
-/// A starting point for iterations that need a cube root: relative error 2^-16, x = 0 gives a tiny number,
-/// non-finite and denormal x anything.
+/// A starting point for iterations that need a cube root: relative error 2^-16, x = 0 gives a tiny
+/// number, non-finite and denormal x anything.
 template <class Real>
 HOPSCOTCH_DEVICE inline Real rough_cbrt(const Real& x) {
     if constexpr (binary64_lane<Real>) {
@@ -52,12 +52,12 @@ HOPSCOTCH_DEVICE inline Real rough_cbrt(const Real& x) {
         const Real m = mantissa(size);
         const Real thirds = floor((e + Real(0.5)) * Real(0x1.5555555555555p-2));
         const Real left = e - Real(3.0) * thirds;
-        const Real factor_root =
-            select(left == Real(0.0), Real(1.0),
-                   select(left == Real(1.0), Real(0x1.428a2f98d728bp+0), Real(0x1.965fea53d6e3dp+0)));
-        const Real root = polynomial(m, 0x1.0392c44551a05p-1, 0x1.6fb1f265b2258p-1,
-                                     -0x1.33d39f4fc4881p-2, 0x1.60a16d155891dp-4,
-                                     -0x1.5b77f5a105c16p-7);
+        const Real factor_root = select(
+            left == Real(0.0), Real(1.0),
+            select(left == Real(1.0), Real(0x1.428a2f98d728bp+0), Real(0x1.965fea53d6e3dp+0)));
+        const Real root =
+            polynomial(m, 0x1.0392c44551a05p-1, 0x1.6fb1f265b2258p-1, -0x1.33d39f4fc4881p-2,
+                       0x1.60a16d155891dp-4, -0x1.5b77f5a105c16p-7);
         return copysign(factor_root * root * power_of_two(thirds), x);
     } else {
         return cbrt(x);

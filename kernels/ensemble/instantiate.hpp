@@ -1,5 +1,5 @@
-// What a generated instantiation unit needs: the lane type of its target and the table of one ensemble
-// function per compile-time variant.
+// What a generated instantiation unit needs: the lane type of its target and the table of one
+// ensemble function per compile-time variant.
 #pragma once
 
 #include "kernels/ensemble/loop.hpp"

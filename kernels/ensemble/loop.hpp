@@ -1,6 +1,6 @@
-// The ensemble loop: lanes that never idle. A finished trajectory is written out and its lane takes the
-// next cell at once; starts are prepared a full pack at a time. The same functions, with one lane, are
-// what a CUDA thread runs.
+// The ensemble loop: lanes that never idle. A finished trajectory is written out and its lane takes
+// the next cell at once; starts are prepared a full pack at a time. The same functions, with one
+// lane, are what a CUDA thread runs.
 #pragma once
 
 #include "kernels/contract/model.hpp"
@@ -11,8 +11,8 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
-/// A trajectory and what the loop itself keeps of it. Only Real members, so that a lane is a column of
-/// doubles in memory.
+/// A trajectory and what the loop itself keeps of it. Only Real members, so that a lane is a column
+/// of doubles in memory.
 template <class Model, class Real>
 struct trajectory {
     typename Model::template lane<Real> motion;
@@ -23,7 +23,7 @@ struct trajectory {
 
 template <class Model, int Variant, class Real>
 class ensemble {
-  public:
+public:
     HOPSCOTCH_DEVICE explicit ensemble(const ensemble_request& request) : request_(request) {}
 
     /// Computes cells [first, last) and returns how full the lanes were.
@@ -46,7 +46,7 @@ class ensemble {
         return statistics;
     }
 
-  private:
+private:
     static constexpr int width = width_of<Real>;
     static constexpr int n_fields =
         static_cast<int>(sizeof(trajectory<Model, Real>) / sizeof(Real));
@@ -56,13 +56,15 @@ class ensemble {
     std::uint64_t next_cell_ = 0;
     std::uint64_t last_cell_ = 0;
     state now_;
-    state fresh_;             // prepared starts, taken lane by lane
+    state fresh_;  // prepared starts, taken lane by lane
     std::uint64_t cells_[width];
     std::uint64_t fresh_cells_[width];
-    int fresh_first_ = 0;     // the next lane of fresh_ to take
-    int fresh_left_ = 0;      // lanes of fresh_ not yet taken
+    int fresh_first_ = 0;  // the next lane of fresh_ to take
+    int fresh_left_ = 0;   // lanes of fresh_ not yet taken
 
-    HOPSCOTCH_DEVICE static double* lanes_of(Real& field) { return reinterpret_cast<double*>(&field); }
+    HOPSCOTCH_DEVICE static double* lanes_of(Real& field) {
+        return reinterpret_cast<double*>(&field);
+    }
     HOPSCOTCH_DEVICE static const double* lanes_of(const Real& field) {
         return reinterpret_cast<const double*>(&field);
     }
@@ -74,7 +76,8 @@ class ensemble {
         Real columns[most_columns];
         Real parameters[most_parameters];
         for (int lane = 0; lane < width; ++lane) {
-            fresh_cells_[lane] = next_cell_ + static_cast<std::uint64_t>(lane);  // beyond n: not written
+            fresh_cells_[lane] =
+                next_cell_ + static_cast<std::uint64_t>(lane);  // beyond n: not written
         }
         load(columns, request_.columns, most_columns);
         load(parameters, request_.parameters, most_parameters);
@@ -98,7 +101,8 @@ class ensemble {
             if (!(lanes_of(fresh_.busy)[lane] > 0.0)) continue;
             if (kept < lane) {
                 double* fields = reinterpret_cast<double*>(&fresh_);
-                for (int f = 0; f < n_fields; ++f) fields[f * width + kept] = fields[f * width + lane];
+                for (int f = 0; f < n_fields; ++f)
+                    fields[f * width + kept] = fields[f * width + lane];
                 fresh_cells_[kept] = fresh_cells_[lane];
             }
             ++kept;
@@ -151,7 +155,8 @@ class ensemble {
         const mask_of<Real> where = chosen > Real(0.0);
         Real* to = reinterpret_cast<Real*>(&now_);
         const Real* from = reinterpret_cast<const Real*>(&fresh_);
-        for (int f = 0; f < n_fields; ++f) fill_lanes(to[f], where, lanes_of(from[f]) + fresh_first_);
+        for (int f = 0; f < n_fields; ++f)
+            fill_lanes(to[f], where, lanes_of(from[f]) + fresh_first_);
         fresh_first_ += n;
         fresh_left_ -= n;
         return n;
@@ -168,7 +173,8 @@ class ensemble {
         const mask_of<Real> spent = active & (at.steps >= Real(request_.max_steps));
         const mask_of<Real> full = at.returns >= Real(static_cast<double>(request_.max_returns));
         Real ended = select(active, done.ended, zero);
-        if (request_.decided_by == decision::returns && !any(full | spent | !(ended == zero))) return;
+        if (request_.decided_by == decision::returns && !any(full | spent | !(ended == zero)))
+            return;
 
         ended = select(spent & (ended == zero), code_of<Real>(outcome::budget), ended);
         Real label = zero;
@@ -180,14 +186,13 @@ class ensemble {
         } else if (request_.decided_by == decision::intervals) {
             find_intervals(at, cells, active & (ended == zero), label);
         }
-        const mask_of<Real> dies = (ended == code_of<Real>(outcome::stuck)) |
-                                   (ended == code_of<Real>(outcome::rest));
+        const mask_of<Real> dies =
+            (ended == code_of<Real>(outcome::stuck)) | (ended == code_of<Real>(outcome::rest));
         label = select(active & dies, Real(static_cast<double>(request_.died_label)), label);
 
         const mask_of<Real> labelled = label > zero;
-        const Real at_limit = request_.decided_by == decision::returns
-                                  ? zero
-                                  : code_of<Real>(outcome::budget);
+        const Real at_limit =
+            request_.decided_by == decision::returns ? zero : code_of<Real>(outcome::budget);
         const mask_of<Real> finished = active & (labelled | full | !(ended == zero));
         ended = select(labelled, code_of<Real>(outcome::attracted),
                        select(full & (ended == zero), at_limit, ended));
@@ -197,8 +202,8 @@ class ensemble {
         }
     }
 
-    HOPSCOTCH_DEVICE void find_intervals(const state& at, const std::uint64_t* cells, mask_of<Real> wanted,
-                                         Real& label) {
+    HOPSCOTCH_DEVICE void find_intervals(const state& at, const std::uint64_t* cells,
+                                         mask_of<Real> wanted, Real& label) {
         Real columns[most_columns];
         Model::read_state(at.motion, request_.end_section, columns);
         const Real flags = select(wanted, Real(1.0), Real(0.0));
@@ -206,7 +211,8 @@ class ensemble {
             if (!(lanes_of(flags)[lane] > 0.0)) continue;
             const double x = lanes_of(columns[0])[lane];
             const auto point = static_cast<std::uint64_t>(request_.trap_point.at(cells[lane]));
-            const trap_interval* trap = request_.traps + point * static_cast<std::uint64_t>(request_.n_traps);
+            const trap_interval* trap =
+                request_.traps + point * static_cast<std::uint64_t>(request_.n_traps);
             for (int i = 0; i < request_.n_traps; ++i) {
                 if (x >= trap[i].lowest && x <= trap[i].highest) {
                     lanes_of(label)[lane] = static_cast<double>(trap[i].label);
@@ -261,10 +267,10 @@ class ensemble {
 
 /// The ensemble function of one model variant in one arithmetic: what a backend's table points to.
 template <class Model, int Variant, class Real>
-    requires model<Model, Real>
-lane_statistics run_ensemble(const ensemble_request& request) {
+requires model<Model, Real> lane_statistics run_ensemble(const ensemble_request& request) {
     ensemble_request complete = request;
-    complete.end_section = Model::info.sections[static_cast<std::size_t>(request.section)].returns_to;
+    complete.end_section =
+        Model::info.sections[static_cast<std::size_t>(request.section)].returns_to;
     ensemble<Model, Variant, Real> lanes(complete);
     return lanes.run(0, request.n_cells);
 }

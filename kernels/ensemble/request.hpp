@@ -8,7 +8,8 @@
 
 namespace hopscotch {
 
-/// Where one number of a cell comes from: a table along an axis, a list of rows, or a constant (size 1).
+/// Where one number of a cell comes from: a table along an axis, a list of rows, or a constant
+/// (size 1).
 struct column_source {
     const double* values = nullptr;
     std::uint64_t stride = 1;
@@ -48,7 +49,7 @@ struct ensemble_request {
 
     const trap_interval* traps = nullptr;  // [parameter point][n_traps]
     int n_traps = 0;
-    column_source trap_point;              // value = index of the cell's parameter point
+    column_source trap_point;  // value = index of the cell's parameter point
 
     std::int16_t* label = nullptr;
     std::uint8_t* outcome = nullptr;

@@ -1,5 +1,5 @@
-// Sums  1 - y/d_1 (1 - y/d_2 (1 - ...)):  the tails of sine and cosine that would cancel if they were
-// computed from the functions themselves. Used by flows near their launch.
+// Sums  1 - y/d_1 (1 - y/d_2 (1 - ...)):  the tails of sine and cosine that would cancel if they
+// were computed from the functions themselves. Used by flows near their launch.
 #pragma once
 
 #include "kernels/lanes/lane.hpp"
@@ -7,8 +7,8 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
-/// Terms that make the nested sum exact to rounding where y <= 1 and d_n = (2 n + 2)(2 n + 3) or more, or
-/// y <= 1/4 and d_n = 2 n (2 n + 3): the first one left out is 5e-17 for double.
+/// Terms that make the nested sum exact to rounding where y <= 1 and d_n = (2 n + 2)(2 n + 3) or
+/// more, or y <= 1/4 and d_n = 2 n (2 n + 3): the first one left out is 5e-17 for double.
 template <class Real>
 inline constexpr int series_terms = lane_traits<Real>::rounding > 0x1p-60    ? 7
                                     : lane_traits<Real>::rounding > 0x1p-110 ? 15

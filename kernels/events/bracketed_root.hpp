@@ -1,5 +1,5 @@
-// Newton's or Halley's method inside a bracket, lane by lane: the workhorse behind every event time. Each lane stops
-// on its own convergence, so that its bits do not depend on its neighbours.
+// Newton's or Halley's method inside a bracket, lane by lane: the workhorse behind every event
+// time. Each lane stops on its own convergence, so that its bits do not depend on its neighbours.
 #pragma once
 
 #include "kernels/lanes/lane.hpp"
@@ -14,7 +14,8 @@ struct value_and_slope {
     Real slope;
 };
 
-/// A function's value (only its sign counts) and the step of an iteration towards its root, x - step.
+/// A function's value (only its sign counts) and the step of an iteration towards its root, x -
+/// step.
 template <class Real>
 struct value_and_step {
     Real value;
@@ -34,7 +35,8 @@ HOPSCOTCH_DEVICE inline value_and_step<Real> iteration(const value_and_step<Real
 template <class Real, int Order>
 constexpr double settled_step() {
     double root = 1.0;
-    for (int i = 0; i < 2000; ++i) {  // x -> root of x^Order = rounding, by Newton's method from above
+    for (int i = 0; i < 2000;
+         ++i) {  // x -> root of x^Order = rounding, by Newton's method from above
         double power = 1.0;
         for (int j = 1; j < Order; ++j) power *= root;
         root -= (root * power - lane_traits<Real>::rounding) / (Order * power);
@@ -69,8 +71,9 @@ inline constexpr int most_root_steps = 400;
 /// \param wanted  lanes to solve; the others return their guess
 /// \return        the root, converged below the rounding of x
 /// \error         none; a lane whose function is not finite stops where it is
-/// Steps that leave the bracket, or that shrink slower than bisection would, become bisections. A lane
-/// is done when a step is so short that the next would be below rounding, or when the bracket collapsed.
+/// Steps that leave the bracket, or that shrink slower than bisection would, become bisections. A
+/// lane is done when a step is so short that the next would be below rounding, or when the bracket
+/// collapsed.
 template <class Real, int Order = 2, class Function>
 HOPSCOTCH_DEVICE inline Real bracketed_root(Function&& rising, bracket<Real> within, Real guess,
                                             mask_of<Real> wanted) {
@@ -90,14 +93,13 @@ HOPSCOTCH_DEVICE inline Real bracketed_root(Function&& rising, bracket<Real> wit
         low = select(active & left, x, low);
         high = select(active & !left, x, high);
         const Real newton = x - f.step;
-        const mask_of<Real> good = (newton >= low) & (newton <= high) &
-                                   (abs(f.step) <= last_step * Real(0.75));
+        const mask_of<Real> good =
+            (newton >= low) & (newton <= high) & (abs(f.step) <= last_step * Real(0.75));
         const Real middle = (low + high) * half;
         const Real next = select(good, newton, middle);
         const Real scale = abs(next);
         const mask_of<Real> settled = (good & (abs(f.step) <= close_enough * scale)) |
-                                      ((high - low) <= collapsed * scale) |
-                                      (f.value == Real(0.0));
+                                      ((high - low) <= collapsed * scale) | (f.value == Real(0.0));
         const mask_of<Real> lost = !(f.value == f.value);
         last_step = select(active, abs(next - x), last_step);
         x = select(active & !lost & !(f.value == Real(0.0)), next, x);

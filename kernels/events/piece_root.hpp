@@ -1,6 +1,6 @@
-// The guaranteed first root of a gap function on a piece where its curvature keeps one sign. Splitting a
-// flight at its inflections and asking piece by piece misses no contact: two crossings in one piece,
-// grazing and launches from the ground are all decided by signs at known points.
+// The guaranteed first root of a gap function on a piece where its curvature keeps one sign.
+// Splitting a flight at its inflections and asking piece by piece misses no contact: two crossings
+// in one piece, grazing and launches from the ground are all decided by signs at known points.
 #pragma once
 
 #include "kernels/events/bracketed_root.hpp"
@@ -21,8 +21,8 @@ struct found_root {
 /// \param wanted  lanes that are still searching; gap(from) >= 0 there
 /// \return        found and the time, lane-wise
 /// \error         none; touching counts as contact
-/// On a concave piece gap >= 0 on the left leaves exactly one root, if gap(to) <= 0. On a convex piece
-/// the minimum decides; its place is the only root of the gap rate.
+/// On a concave piece gap >= 0 on the left leaves exactly one root, if gap(to) <= 0. On a convex
+/// piece the minimum decides; its place is the only root of the gap rate.
 template <class Real, class Flow>
 HOPSCOTCH_DEVICE inline found_root<Real> first_root_on_piece(const Flow& flow, Real from, Real to,
                                                              mask_of<Real> convex, Real guess,
@@ -35,7 +35,8 @@ HOPSCOTCH_DEVICE inline found_root<Real> first_root_on_piece(const Flow& flow, R
         const auto rate = [&](const Real& t) {
             return value_and_slope<Real>{flow.gap_rate(t), flow.gap_curvature(t)};
         };
-        const Real minimum = bracketed_root<Real>(rate, {from, to}, (from + to) * Real(0.5), has_minimum);
+        const Real minimum =
+            bracketed_root<Real>(rate, {from, to}, (from + to) * Real(0.5), has_minimum);
         lowest = select(has_minimum, minimum, to);
     }
     const mask_of<Real> found = (bowl | (wanted & !convex)) & (flow.gap(lowest) <= zero);

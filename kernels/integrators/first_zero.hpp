@@ -1,14 +1,15 @@
-// The guaranteed first zero of a guard on one step of an integrated flow. The guard is a polynomial over the
-// whole step; a bound on its curvature gives steps that never pass a zero, so that two crossings in one step,
-// a touch, a zero at the end and a whole arc inside the first step are all seen.
+// The guaranteed first zero of a guard on one step of an integrated flow. The guard is a polynomial
+// over the whole step; a bound on its curvature gives steps that never pass a zero, so that two
+// crossings in one step, a touch, a zero at the end and a whole arc inside the first step are all
+// seen.
 #pragma once
 
 #include "kernels/integrators/taylor.hpp"
 
 namespace hopscotch::inline HOPSCOTCH_TARGET::taylor {
 
-/// A guard's polynomial with its known zeros at t = 0 divided out. A guard that has just fired (or an arc
-/// that begins on its own guard) is exactly zero there; what is left is positive.
+/// A guard's polynomial with its known zeros at t = 0 divided out. A guard that has just fired (or
+/// an arc that begins on its own guard) is exactly zero there; what is left is positive.
 ///
 /// \param guard   positive while nothing happens, falls through zero at the event
 /// \param zeros   lane-wise 0, 1, 2 or 3: how many leading coefficients are zero by definition
@@ -50,9 +51,10 @@ HOPSCOTCH_DEVICE inline value_and_slope<Real> value_slope(const series<Real>& a,
 /// \param guard    from `without_zeros`; its value at 0 decides: <= 0 there gives time 0
 /// \param horizon  length of the step
 /// \param wanted   lanes to search
-/// \error  touching to rounding counts. Where guard >= 0, guard' and |guard''| <= L, nothing happens before
-///         (g' + sqrt(g'^2 + 2 L g)) / L. A lane not decided after 200 steps is `unresolved`; a guard
-///         that is not finite is not found.
+/// \error  touching to rounding counts. Where guard >= 0, guard' and |guard''| <= L, nothing
+/// happens before
+///         (g' + sqrt(g'^2 + 2 L g)) / L. A lane not decided after 200 steps is `unresolved`; a
+///         guard that is not finite is not found.
 template <class Real>
 HOPSCOTCH_DEVICE inline guard_search<Real> first_zero(const series<Real>& guard,
                                                       const primal_of<Real>& horizon,
@@ -88,8 +90,8 @@ HOPSCOTCH_DEVICE inline guard_search<Real> first_zero(const series<Real>& guard,
             const plain noise = fma(noise_rate, t, noise_now);  // of the value at t
             const mask_of<Real> touches =
                 (at.value <= noise) & (at.slope * at.slope <= plain(2.0) * curvature * noise);
-            const mask_of<Real> arrived =
-                active & ((at.value <= zero) | touches | (step <= settled * smaller(next, horizon)));
+            const mask_of<Real> arrived = active & ((at.value <= zero) | touches |
+                                                    (step <= settled * smaller(next, horizon)));
             const mask_of<Real> passed = active & !arrived & !(next < horizon);
             found = found | arrived;
             t = select(active & !arrived & !passed, next, t);
@@ -104,8 +106,9 @@ HOPSCOTCH_DEVICE inline guard_search<Real> first_zero(const series<Real>& guard,
         return {found, active, t};
     } else {
         const plain slope = value_slope(g, t).slope;
-        return {found, active,
-                implicit_root(t, evaluate(guard, t), select(slope == zero, infinity<plain>(), slope))};
+        return {
+            found, active,
+            implicit_root(t, evaluate(guard, t), select(slope == zero, infinity<plain>(), slope))};
     }
 }
 

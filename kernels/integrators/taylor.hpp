@@ -1,16 +1,20 @@
-// The one integrator of all flows without closed form: Taylor series of fixed order, one step per call,
-// lane by lane. The step's polynomial is its own dense output, and events are isolated on it over the whole
-// step (kernels/integrators/first_zero.hpp). A flow brings its right-hand side as recurrences on
-// coefficients; polynomial right-hand sides cost one Cauchy product per multiplication.
+// The one integrator of all flows without closed form: Taylor series of fixed order, one step per
+// call, lane by lane. The step's polynomial is its own dense output, and events are isolated on it
+// over the whole step (kernels/integrators/first_zero.hpp). A flow brings its right-hand side as
+// recurrences on coefficients; polynomial right-hand sides cost one Cauchy product per
+// multiplication.
 //
-// Why a Taylor series and not an embedded Runge-Kutta pair of order 8. Steps per stance of the spring-mass
-// runner for a lift-off error of 1e-12 (models/slip.md, section 10): series of order 22 4-6, DOP853 12-16
-// with 12 right-hand sides each and three more for its dense output, which has order 7 only. Measured here
-// (linear spring, kt 2-12, one AVX-512 core, 8 lanes a register; CPU time per stance, median error):
+// Why a Taylor series and not an embedded Runge-Kutta pair of order 8. Steps per stance of the
+// spring-mass runner for a lift-off error of 1e-12 (models/slip.md, section 10): series of order 22
+// 4-6, DOP853 12-16 with 12 right-hand sides each and three more for its dense output, which has
+// order 7 only. Measured here (linear spring, kt 2-12, one AVX-512 core, 8 lanes a register; CPU
+// time per stance, median error):
 //   order 16, tolerance 2^-47: 11.1 steps, 1.6 us, 4e-16      order 24: 5.4 steps, 1.04 us, 6e-16
 //   order 20:                   7.1 steps, 1.4 us, 4e-16      order 28: 4.5 steps, 1.04 us, 1e-15
-//   order 22:                   6.1 steps, 1.04 us, 4e-16     order 22, 2^-40: 5.0 steps, 0.87 us, 7e-14
-// so full precision costs 20 % more than 1e-13, and the same code serves 31 and 50 digits by its order.
+//   order 22:                   6.1 steps, 1.04 us, 4e-16     order 22, 2^-40: 5.0 steps, 0.87 us,
+//   7e-14
+// so full precision costs 20 % more than 1e-13, and the same code serves 31 and 50 digits by its
+// order.
 #pragma once
 
 #include "kernels/elementary/elementary.hpp"
@@ -19,15 +23,15 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET::taylor {
 
-/// Order of the series: high enough that a step spans a good part of the radius of convergence at the
-/// arithmetic's own tolerance.
+/// Order of the series: high enough that a step spans a good part of the radius of convergence at
+/// the arithmetic's own tolerance.
 template <class Real>
 inline constexpr int order = lane_traits<Real>::rounding > 0x1p-60    ? 22
                              : lane_traits<Real>::rounding > 0x1p-110 ? 36
                                                                       : 60;
 
-/// Local error that a step may make, relative to each variable's size: 2^-47 (7e-15) in double, 2^-95
-/// (2.5e-29) in double-double, 2^-170 (7e-52) in 50 digits.
+/// Local error that a step may make, relative to each variable's size: 2^-47 (7e-15) in double,
+/// 2^-95 (2.5e-29) in double-double, 2^-170 (7e-52) in 50 digits.
 template <class Real>
 inline constexpr double default_tolerance = lane_traits<Real>::rounding > 0x1p-60    ? 0x1p-47
                                             : lane_traits<Real>::rounding > 0x1p-110 ? 0x1p-95
@@ -87,17 +91,19 @@ HOPSCOTCH_DEVICE inline series<primal_of<Real>> primal_series(const series<Real>
 /// Collects the tails of the series that a step carries and turns them into its length.
 template <class Real>
 class step_length {
-  public:
+public:
     /// Takes account of a variable; its error is measured against floor + |value at the start|.
     HOPSCOTCH_DEVICE void watch(const series<Real>& a, double floor = 0.25) {
         const plain scale = plain(floor) + abs(primal(a.c[0]));
         last_ = larger(last_, abs(primal(a.c[order<Real>])) / scale);
         before_last_ = larger(before_last_, abs(primal(a.c[order<Real> - 1])) / scale);
-        doubtful_ = doubtful_ + (abs(primal(a.c[order<Real>])) + abs(primal(a.c[order<Real> - 1]))) * plain(0.0);
+        doubtful_ =
+            doubtful_ +
+            (abs(primal(a.c[order<Real>])) + abs(primal(a.c[order<Real> - 1]))) * plain(0.0);
     }
 
-    /// The longest step whose last two terms stay below the tolerance, at most `longest`; NaN where a
-    /// coefficient is not finite.
+    /// The longest step whose last two terms stay below the tolerance, at most `longest`; NaN where
+    /// a coefficient is not finite.
     HOPSCOTCH_DEVICE primal_of<Real> length(const primal_of<Real>& tolerance,
                                             const primal_of<Real>& longest) const {
         const plain from_last = root(tolerance / last_, order<Real>);
@@ -106,9 +112,11 @@ class step_length {
         return select(shorter < longest, shorter, longest) + doubtful_;
     }
 
-  private:
+private:
     using plain = primal_of<Real>;
-    HOPSCOTCH_DEVICE static plain root(const plain& ratio, int n) { return exp(log(ratio) / plain(static_cast<double>(n))); }
+    HOPSCOTCH_DEVICE static plain root(const plain& ratio, int n) {
+        return exp(log(ratio) / plain(static_cast<double>(n)));
+    }
 
     plain last_ = plain(0.0);
     plain before_last_ = plain(0.0);

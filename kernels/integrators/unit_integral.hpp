@@ -1,5 +1,6 @@
-// Integrals over (0, 1) by the tanh-sinh rule: integrands may have square-root singularities at or close to
-// both ends. A table of nodes in double, spacing halved until convergence in wider arithmetics.
+// Integrals over (0, 1) by the tanh-sinh rule: integrands may have square-root singularities at or
+// close to both ends. A table of nodes in double, spacing halved until convergence in wider
+// arithmetics.
 #pragma once
 
 #include "kernels/elementary/elementary.hpp"
@@ -11,8 +12,8 @@ struct unit_node {
     double from_start, from_end, weight;
 };
 
-/// Spacing 1/18 in the variable t of x = (1 + tanh(pi/2 sinh t)) / 2; rounded from 40 digits. Weights below
-/// 1e-34 are left out: an inverse square root at an end loses 1e-17 to that.
+/// Spacing 1/18 in the variable t of x = (1 + tanh(pi/2 sinh t)) / 2; rounded from 40 digits.
+/// Weights below 1e-34 are left out: an inverse square root at an end loses 1e-17 to that.
 inline constexpr unit_node unit_nodes[] = {
     {0x1.417b821827a6cp-111, 0x1.0000000000000p+0, 0x1.56ce9091d6e12p-109},
     {0x1.3e5af6b7f9114p-105, 0x1.0000000000000p+0, 0x1.412493a0c7be8p-103},
@@ -183,7 +184,8 @@ HOPSCOTCH_DEVICE inline Real over_unit_interval(const Function& f) {
         };
         Real sum = term(plain(0.0));
         const auto add = [&](double first, double distance) {
-            for (double t = first; t <= span; t += distance) sum = sum + (term(plain(t)) + term(plain(-t)));
+            for (double t = first; t <= span; t += distance)
+                sum = sum + (term(plain(t)) + term(plain(-t)));
         };
         double spacing = 0.125;
         add(spacing, spacing);
@@ -195,7 +197,8 @@ HOPSCOTCH_DEVICE inline Real over_unit_interval(const Function& f) {
             const Real finer = sum * Real(spacing);
             const plain change = abs(primal(finer) - primal(result));
             result = select(active, finer, result);
-            active = active & !(change <= plain(lane_traits<Real>::root_rounding) * abs(primal(finer)));
+            active =
+                active & !(change <= plain(lane_traits<Real>::root_rounding) * abs(primal(finer)));
         }
         return result;
     }

@@ -17,7 +17,8 @@ using simd_arch = xsimd::fma3<xsimd::avx2>;
 using simd_register = xsimd::batch<double, simd_arch>;
 using simd_mask = xsimd::batch_bool<double, simd_arch>;
 
-// xsimd 8.1 has no fused multiply-add for AVX-512 (its generic one rounds twice), hence the intrinsic.
+// xsimd 8.1 has no fused multiply-add for AVX-512 (its generic one rounds twice), hence the
+// intrinsic.
 inline simd_register fused(const simd_register& a, const simd_register& b, const simd_register& c) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
     return _mm512_fmadd_pd(a, b, c);
@@ -175,7 +176,8 @@ struct pack {
         });
     }
     friend pack select(const pack_mask<Registers>& condition, const pack& yes, const pack& no) {
-        return each([&](int i) { return xsimd::select(condition.part[i], yes.part[i], no.part[i]); });
+        return each(
+            [&](int i) { return xsimd::select(condition.part[i], yes.part[i], no.part[i]); });
     }
     friend pack negate_where(const pack_mask<Registers>& condition, const pack& x) {
         return each([&](int i) { return negated_where(condition.part[i], x.part[i]); });
@@ -234,7 +236,8 @@ inline unsigned bits_of(const simd_mask& mask) {
 #endif
 }
 
-/// Puts consecutive doubles of `from` into the lanes where the mask is set, in order; returns how many.
+/// Puts consecutive doubles of `from` into the lanes where the mask is set, in order; returns how
+/// many.
 template <int Registers>
 inline int fill_lanes(pack<Registers>& to, const pack_mask<Registers>& where, const double* from) {
     int taken = 0;
@@ -242,7 +245,8 @@ inline int fill_lanes(pack<Registers>& to, const pack_mask<Registers>& where, co
 #pragma GCC unroll 8
     for (int i = 0; i < Registers; ++i) {
         const unsigned bits = bits_of(where.part[i]);
-        to.part[i] = _mm512_mask_expandloadu_pd(to.part[i], static_cast<__mmask8>(bits), from + taken);
+        to.part[i] =
+            _mm512_mask_expandloadu_pd(to.part[i], static_cast<__mmask8>(bits), from + taken);
         taken += __builtin_popcount(bits);
     }
 #else
@@ -251,7 +255,8 @@ inline int fill_lanes(pack<Registers>& to, const pack_mask<Registers>& where, co
     for (int i = 0; i < Registers; ++i) {
         const unsigned bits = bits_of(where.part[i]);
         for (int lane = 0; lane < static_cast<int>(simd_register::size); ++lane) {
-            if ((bits >> lane) & 1) lanes[i * static_cast<int>(simd_register::size) + lane] = from[taken++];
+            if ((bits >> lane) & 1)
+                lanes[i * static_cast<int>(simd_register::size) + lane] = from[taken++];
         }
     }
 #endif

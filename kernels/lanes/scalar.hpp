@@ -1,5 +1,5 @@
-// `double` as a Real: one trajectory, the reference that every pack and device must match bit for bit.
-// Also what a CUDA thread runs.
+// `double` as a Real: one trajectory, the reference that every pack and device must match bit for
+// bit. Also what a CUDA thread runs.
 #pragma once
 
 #include "kernels/lanes/lane.hpp"
@@ -42,12 +42,14 @@ HOPSCOTCH_DEVICE inline double to_double(double x) { return x; }
 
 /// 2^n for integral n in [-1022, 1023].
 HOPSCOTCH_DEVICE inline double power_of_two(double n) {
-    return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(n) + 1023) << 52);
+    return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(n) + 1023)
+                                 << 52);
 }
 
 /// Exponent e and mantissa m in [1, 2) of a positive normal x = m 2^e.
 HOPSCOTCH_DEVICE inline double exponent(double x) {
-    return static_cast<double>(static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023);
+    return static_cast<double>(static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) >> 52) -
+                               1023);
 }
 HOPSCOTCH_DEVICE inline double mantissa(double x) {
     constexpr std::uint64_t fraction = 0x000fffffffffffffull;
@@ -61,7 +63,8 @@ HOPSCOTCH_DEVICE inline bool has_bit(double x) {
     return ((std::bit_cast<std::uint64_t>(x) >> Bit) & 1u) != 0;
 }
 
-/// Puts consecutive doubles of `from` into the lanes where the mask is set, in order; returns how many.
+/// Puts consecutive doubles of `from` into the lanes where the mask is set, in order; returns how
+/// many.
 HOPSCOTCH_DEVICE inline int fill_lanes(double& to, bool where, const double* from) {
     if (where) to = *from;
     return where ? 1 : 0;

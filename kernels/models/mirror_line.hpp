@@ -1,6 +1,6 @@
-// The line juggler under a mirror law: one ball, one vertical line, an explicit map of apex heights.
-// Source: Rizzi and Koditschek 1994, Eqs (5)-(9), with the sign of models/mirror_juggler.md, section 0:
-// r = -K b, K = kappa0 + kappa1 gravity (target - apex).
+// The line juggler under a mirror law: one ball, one vertical line, an explicit map of apex
+// heights. Source: Rizzi and Koditschek 1994, Eqs (5)-(9), with the sign of
+// models/mirror_juggler.md, section 0: r = -K b, K = kappa0 + kappa1 gravity (target - apex).
 #pragma once
 
 #include "kernels/contract/model.hpp"
@@ -21,8 +21,10 @@ struct mirror_line {
         {"target_height", "b*", "m", 0.5, positive, "apex height asked for"},
     };
     enum parameter_index { restitution, gravity, gain_offset, energy_gain, target_height };
-    static constexpr column_info apex_columns[] = {
-        {"apex_height", "m", {0.0, unbounded, true, false}, "height of the apex above the impacts"}};
+    static constexpr column_info apex_columns[] = {{"apex_height",
+                                                    "m",
+                                                    {0.0, unbounded, true, false},
+                                                    "height of the apex above the impacts"}};
     static constexpr section_info sections[] = {{"apex", apex_columns, 0, "apex of the flight"}};
     static constexpr extra_info extras[] = {
         {"downward", "1", "flag: an impact left the ball moving downward (m < 0)"},
@@ -51,11 +53,12 @@ struct mirror_line {
 
     template <class Real>
     struct lane {
-        Real offset;      // a
-        Real slope;       // (1 + alpha) kappa1 gravity
+        Real offset;  // a
+        Real slope;   // (1 + alpha) kappa1 gravity
         Real gravity;
         Real height;      // of the apex
-        Real is_falling;  // 1: the last impact left the ball on its way down; the next one is immediate
+        Real is_falling;  // 1: the last impact left the ball on its way down; the next one is
+                          // immediate
         Real downward;
         Real invalid_gain;
         Real time;
@@ -84,7 +87,8 @@ struct mirror_line {
     }
 
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
+                                                Watch& watch) {
         const Real zero(0.0);
         const Real one(1.0);
         const Real m = fma(-lane.slope, lane.height, lane.offset);
@@ -126,11 +130,13 @@ struct mirror_line {
         extra[1] = lane.invalid_gain;
     }
 
-    /// Page, section 3. With kappa1 > 0 heights with m > -1 (y < a + 1) stay there for a <= 3; a alone names
-    /// the attractor, by Singer's theorem. Without an energy servo, or with kappa1 < 0, |m| < 1 decides.
+    /// Page, section 3. With kappa1 > 0 heights with m > -1 (y < a + 1) stay there for a <= 3; a
+    /// alone names the attractor, by Singer's theorem. Without an energy servo, or with kappa1 < 0,
+    /// |m| < 1 decides.
     template <int Variant, class Real>
     HOPSCOTCH_DEVICE static Real certificate(const lane<Real>& lane) {
-        // multiplier -1 of the cycles of period 1, 2, 4 ... 128: a = 2, sqrt 5, ... (50-digit Newton)
+        // multiplier -1 of the cycles of period 1, 2, 4 ... 128: a = 2, sqrt 5, ... (50-digit
+        // Newton)
         constexpr doubling_cascade cascade{{2.0, 0x1.1e3779b97f4a8p+1, 0x1.24de397adb4dcp+1,
                                             0x1.264d19e36c6d6p+1, 0x1.269bc6b8a89bfp+1,
                                             0x1.26aca177130c3p+1, 0x1.26b03d9b1a5ebp+1,
@@ -140,8 +146,8 @@ struct mirror_line {
         const Real m = fma(-lane.slope, lane.height, lane.offset);
         const mask_of<Real> has_servo = lane.slope > zero;
         const mask_of<Real> shrinks = (m < one) | (has_servo & (lane.height > zero));
-        const mask_of<Real> dies = (m > -one) & shrinks &
-                                   (lane.offset > -one) & (lane.offset <= one);
+        const mask_of<Real> dies =
+            (m > -one) & shrinks & (lane.offset > -one) & (lane.offset <= one);
         const mask_of<Real> caught = has_servo & (m > -one) & (lane.offset > one) &
                                      (lane.offset <= Real(3.0)) & (lane.height > zero);
         const Real at_rest(static_cast<double>(resting_label));
@@ -150,12 +156,12 @@ struct mirror_line {
     }
     static bool certificate_covers(const variant_query&) { return true; }
     static bool describe_label(int label, label_description& text) {
-        return describe_cascade_label(label, "rest",
-                                      "heights with K > -1, but a set of measure zero (negative Schwarzian)",
-                                      text);
+        return describe_cascade_label(
+            label, "rest", "heights with K > -1, but a set of measure zero (negative Schwarzian)",
+            text);
     }
 
-  private:
+private:
     template <class Lane, class Watch>
     static void report_cycle(const Lane& lane, double m, double fall, Watch& watch) {
         const double gravity = lane.gravity;

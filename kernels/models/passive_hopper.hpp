@@ -1,5 +1,5 @@
-// The passive hopper: body, foot and spring, falling on ground that absorbs every impact, and hopping
-// for ever from one side of its lossless motions. Coordinates y1 v1 y2 v2 of CPRR Eq (2).
+// The passive hopper: body, foot and spring, falling on ground that absorbs every impact, and
+// hopping for ever from one side of its lossless motions. Coordinates y1 v1 y2 v2 of CPRR Eq (2).
 #pragma once
 
 #include "kernels/passive/passive_model.hpp"
@@ -34,7 +34,8 @@ struct passive_hopper : passive::model<hopper_coordinates> {
         {"y2", "1", {0.0, unbounded, true, false}, "foot height above the ground"},
         {"v2", "1", any_finite, "foot velocity"}};
     static constexpr section_info sections[] = {
-        {"liftoff", passive::lift_off_columns, 0, "lift-off from sustained contact (y1 = 1, y2 = v2 = 0)"},
+        {"liftoff", passive::lift_off_columns, 0,
+         "lift-off from sustained contact (y1 = 1, y2 = v2 = 0)"},
         {"flight", state, 0, "any state with the foot on or above the ground; start only"}};
     static constexpr model_info info{
         .name = "passive_hopper",

@@ -1,6 +1,6 @@
-// Raibert's hopper on a linear spring with friction and gravity in stance: a one-dimensional map of touchdown
-// speeds made of closed-form arcs. Source: Koditschek and Buehler 1991, Eq (10) and section 3.2;
-// models/raibert_hopper.md, sections 3-5, 8.
+// Raibert's hopper on a linear spring with friction and gravity in stance: a one-dimensional map of
+// touchdown speeds made of closed-form arcs. Source: Koditschek and Buehler 1991, Eq (10) and
+// section 3.2; models/raibert_hopper.md, sections 3-5, 8.
 #pragma once
 
 #include "kernels/contract/model.hpp"
@@ -9,10 +9,12 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
-/// The leg's shortening since touchdown is the state of a stance, so that small impacts keep their digits.
+/// The leg's shortening since touchdown is the state of a stance, so that small impacts keep their
+/// digits.
 struct raibert_linear {
     static constexpr parameter_info parameters[] = {
-        {"liftoff_height", "chi_l", "m", 0.5, any_finite, "height of the body at touchdown and lift-off"},
+        {"liftoff_height", "chi_l", "m", 0.5, any_finite,
+         "height of the body at touchdown and lift-off"},
         {"stiffness", "eta_1", "1/s^2", 46.5, positive, "spring of the stance over body mass"},
         {"thrust", "tau", "m/s^2", 41.86, positive, "force of the thrust"},
         {"thrust_time", "delta", "s", 0.01, non_negative, "duration of the thrust"},
@@ -25,15 +27,26 @@ struct raibert_linear {
          "gravity during the thrust; where not given, stance_gravity"},
     };
     enum parameter_index {
-        liftoff_height, stiffness, thrust, thrust_time, friction, stance_gravity, flight_gravity,
-        leg_mass_ratio, rest_height, thrust_gravity
+        liftoff_height,
+        stiffness,
+        thrust,
+        thrust_time,
+        friction,
+        stance_gravity,
+        flight_gravity,
+        leg_mass_ratio,
+        rest_height,
+        thrust_gravity
     };
-    static constexpr column_info touchdown_columns[] = {
-        {"touchdown_speed", "m/s", {0.0, unbounded, false, false}, "speed of the body at touchdown"}};
+    static constexpr column_info touchdown_columns[] = {{"touchdown_speed",
+                                                         "m/s",
+                                                         {0.0, unbounded, false, false},
+                                                         "speed of the body at touchdown"}};
     static constexpr column_info apex_columns[] = {
         {"apex_height", "m", any_finite, "height of the body at the apex, above liftoff_height"}};
     static constexpr column_info bottom_columns[] = {
-        {"bottom_height", "m", any_finite, "height of the body at the bottom, below liftoff_height"}};
+        {"bottom_height", "m", any_finite,
+         "height of the body at the bottom, below liftoff_height"}};
     static constexpr section_info sections[] = {
         {"touchdown", touchdown_columns, 0, "the foot touches the ground"},
         {"apex", apex_columns, 1, "highest point of the flight"},
@@ -73,13 +86,13 @@ struct raibert_linear {
 
     template <class Real>
     struct lane {
-        Real height;       // chi_l
+        Real height;  // chi_l
         Real stiffness;
         Real friction;
-        Real gravity;      // in stance
-        Real slack;        // chi_0 - chi_l
+        Real gravity;  // in stance
+        Real slack;    // chi_0 - chi_l
         Real thrust;
-        Real lift;         // acceleration of the thrust, tau less gravity
+        Real lift;  // acceleration of the thrust, tau less gravity
         Real thrust_time;
         Real flight_gravity;
         Real leg_share;    // 1 / (1 + mu')
@@ -122,7 +135,8 @@ struct raibert_linear {
             lane.depth = safe;
             lane.speed = one;
         } else {
-            lane.speed = section == at_touchdown ? safe : sqrt(Real(2.0) * lane.flight_gravity * safe);
+            lane.speed =
+                section == at_touchdown ? safe : sqrt(Real(2.0) * lane.flight_gravity * safe);
             const stance_bottom<Real> bottom = compress<Variant>(lane, lane.speed);
             lane.depth = bottom.depth;
             lane.compression = bottom.time;
@@ -132,10 +146,11 @@ struct raibert_linear {
         return {none, select(valid, zero, code_of<Real>(outcome::invalid_start))};
     }
 
-    /// One hop. The compression after it is computed ahead: it ends a return to the bottom, and begins the
-    /// next one of the other sections.
+    /// One hop. The compression after it is computed ahead: it ends a return to the bottom, and
+    /// begins the next one of the other sections.
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
+                                                Watch& watch) {
         const Real zero(0.0);
         const Real one(1.0);
         const bool_lane<Real> from_bottom{lane.section == Real(static_cast<double>(at_bottom))};
@@ -150,7 +165,8 @@ struct raibert_linear {
         const mask_of<Real> returned = flies & !sinks_next;
 
         if constexpr (Watch::is_active) {
-            if (active) report_hop<Variant>(lane, end, touchdown, bottom, sinks, from_bottom.mask, watch);
+            if (active)
+                report_hop<Variant>(lane, end, touchdown, bottom, sinks, from_bottom.mask, watch);
         }
         const mask_of<Real> at_top = lane.section == Real(static_cast<double>(at_apex));
         const Real fall = select(at_top, lane.speed, touchdown) / lane.flight_gravity;
@@ -164,8 +180,8 @@ struct raibert_linear {
         const mask_of<Real> has_end = (lane.thrust_time > zero) & !end.is_cut;
         const Real stance_events = select(has_end, Real(2.0), one);
         const Real flight_events = select(flies, Real(2.0), zero);
-        const Real happened = select(sinks_next, stance_events + flight_events - one,
-                                     stance_events + flight_events);
+        const Real happened =
+            select(sinks_next, stance_events + flight_events - one, stance_events + flight_events);
         lane.events = select(hops, lane.events + happened, lane.events);
         lane.thrust_cut = select(hops & end.is_cut, one, lane.thrust_cut);
 
@@ -183,10 +199,13 @@ struct raibert_linear {
 
     template <class Real>
     HOPSCOTCH_DEVICE static void read_state(const lane<Real>& lane, int section, Real* columns) {
-        if (section == at_touchdown) columns[0] = lane.speed;
+        if (section == at_touchdown)
+            columns[0] = lane.speed;
         else if (section == at_apex)
-            columns[0] = fma(lane.speed / (lane.flight_gravity + lane.flight_gravity), lane.speed, lane.height);
-        else columns[0] = lane.height - lane.depth;
+            columns[0] = fma(lane.speed / (lane.flight_gravity + lane.flight_gravity), lane.speed,
+                             lane.height);
+        else
+            columns[0] = lane.height - lane.depth;
     }
     template <class Real>
     HOPSCOTCH_DEVICE static void read_extras(const lane<Real>& lane, Real* extra) {
@@ -199,7 +218,7 @@ struct raibert_linear {
         return index == 0;
     }
 
-  private:
+private:
     template <class Real>
     struct bool_lane {
         mask_of<Real> mask;
@@ -213,7 +232,7 @@ struct raibert_linear {
     struct lift_off {
         mask_of<Real> exists, is_cut;
         Real thrust_time, rise_time;
-        Real speed;             // of the body just before lift-off
+        Real speed;                // of the body just before lift-off
         Real remaining, velocity;  // shortening and velocity at the end of the thrust
         Real stiffness, pull;      // of the decompression
     };
@@ -228,8 +247,10 @@ struct raibert_linear {
 
     /// From touchdown to the bottom.
     template <int Variant, class Real>
-    HOPSCOTCH_DEVICE static stance_bottom<Real> compress(const lane<Real>& lane, const Real& speed) {
-        const auto spring = spring_of<Variant, Real>::with(lane.stiffness, lane.friction * Real(0.5));
+    HOPSCOTCH_DEVICE static stance_bottom<Real> compress(const lane<Real>& lane,
+                                                         const Real& speed) {
+        const auto spring =
+            spring_of<Variant, Real>::with(lane.stiffness, lane.friction * Real(0.5));
         const Real pull = pull_at_liftoff(lane);
         const auto bottom = spring.turn(pull, -speed, false);
         const Real time = select(bottom.exists, bottom.time, Real(0.0));
@@ -259,8 +280,10 @@ struct raibert_linear {
         }
         decompress<Variant>(lane, end, pushes);
         if (any(end.is_cut)) {
-            const Real t = raibert::thrust_duration(lane.friction, lane.lift, lane.depth, end.is_cut);
-            const Real speed = lane.lift * t * raibert::friction_factors_at(lane.friction * t).first;
+            const Real t =
+                raibert::thrust_duration(lane.friction, lane.lift, lane.depth, end.is_cut);
+            const Real speed =
+                lane.lift * t * raibert::friction_factors_at(lane.friction * t).first;
             end.thrust_time = select(end.is_cut, t, end.thrust_time);
             end.rise_time = select(end.is_cut, zero, end.rise_time);
             end.speed = select(end.is_cut, speed, end.speed);
@@ -269,13 +292,15 @@ struct raibert_linear {
         return end;
     }
 
-    /// Fills in rise_time, speed and exists. Without lift-off rise_time ends at the top, where there is one.
+    /// Fills in rise_time, speed and exists. Without lift-off rise_time ends at the top, where
+    /// there is one.
     template <int Variant, class Real>
     HOPSCOTCH_DEVICE static void decompress(const lane<Real>& lane, lift_off<Real>& end,
                                             mask_of<Real> wanted) {
         using plain = primal_of<Real>;
         const plain zero(0.0);
-        const auto spring = spring_of<Variant, Real>::with(end.stiffness, lane.friction * Real(0.5));
+        const auto spring =
+            spring_of<Variant, Real>::with(end.stiffness, lane.friction * Real(0.5));
         Real pull = end.pull;
         Real velocity = end.velocity;
         Real rise = end.remaining;
@@ -300,11 +325,13 @@ struct raibert_linear {
         const plain goal = primal(rise);
         const auto top = search.turn(from_pull, from_velocity, true);
         plain latest = top.time;
-        const plain highest = search.after(select(top.exists, top.time, zero), from_pull, from_velocity).displacement;
+        const plain highest =
+            search.after(select(top.exists, top.time, zero), from_pull, from_velocity).displacement;
         end.exists = alive & top.exists & (highest > goal);
         if constexpr (Variant != 0) {
             // overdamped without a top: rises for ever towards the equilibrium
-            const mask_of<Real> creeps = alive & !top.exists & (-from_pull > primal(end.stiffness) * goal);
+            const mask_of<Real> creeps =
+                alive & !top.exists & (-from_pull > primal(end.stiffness) * goal);
             plain bound = search.slow_time();
             mask_of<Real> searching = creeps;
             for (int i = 0; i < 60 && any(searching); ++i) {
@@ -320,10 +347,10 @@ struct raibert_linear {
         const mask_of<Real> at_once = alive & (goal <= zero) & (from_velocity > zero);
         end.exists = end.exists | at_once;
         const mask_of<Real> rises = end.exists & !at_once;
-        const plain acceleration =
-            -fma(primal(lane.friction), from_velocity, from_pull);
+        const plain acceleration = -fma(primal(lane.friction), from_velocity, from_pull);
         const plain square = fma(plain(2.0) * acceleration, goal, from_velocity * from_velocity);
-        const plain guess = (goal + goal) / (from_velocity + sqrt(select(square > zero, square, zero)));
+        const plain guess =
+            (goal + goal) / (from_velocity + sqrt(select(square > zero, square, zero)));
         const auto risen = [&](const plain& t) {
             const auto at = search.after(t, from_pull, from_velocity);
             return value_and_slope<plain>{at.displacement - goal, at.velocity};
@@ -340,8 +367,8 @@ struct raibert_linear {
 
     /// Height and velocity on a spring, t after shortening d, velocity v.
     template <int Variant, class Lane>
-    static void stance_state(const Lane& lane, double eta, double pull, double d, double v, double t,
-                             double* columns) {
+    static void stance_state(const Lane& lane, double eta, double pull, double d, double v,
+                             double t, double* columns) {
         const auto spring = spring_of<Variant, double>::with(eta, lane.friction * 0.5);
         const auto at = spring.after(t, pull, v);
         columns[0] = lane.height - d + at.displacement;
@@ -353,12 +380,13 @@ struct raibert_linear {
         const double at[] = {lane.height, -speed};
         watch.event("touchdown", start, "flight", "compression", at, at, 0.0);
         watch.phase("compression", start, duration, [&](double t, double* columns) {
-            stance_state<Variant>(lane, lane.stiffness, pull_at_liftoff(lane), 0.0, -speed, t, columns);
+            stance_state<Variant>(lane, lane.stiffness, pull_at_liftoff(lane), 0.0, -speed, t,
+                                  columns);
         });
     }
     template <int Variant, class Lane, class Bottom, class LiftOff, class Watch>
-    static void report_hop(const Lane& lane, const LiftOff& end, double touchdown, const Bottom& bottom,
-                           bool sinks, bool from_bottom, Watch& watch) {
+    static void report_hop(const Lane& lane, const LiftOff& end, double touchdown,
+                           const Bottom& bottom, bool sinks, bool from_bottom, Watch& watch) {
         double now = lane.time;
         if (!from_bottom) {
             if (lane.section == static_cast<double>(at_apex)) {
@@ -382,7 +410,8 @@ struct raibert_linear {
         const bool has_thrust = lane.thrust_time > 0.0;
         double at[2];
         pushed(0.0, at);
-        watch.event("bottom", now, "compression", has_thrust ? "thrust" : "decompression", at, at, 0.0);
+        watch.event("bottom", now, "compression", has_thrust ? "thrust" : "decompression", at, at,
+                    0.0);
         if (has_thrust) {
             watch.phase("thrust", now, end.thrust_time, pushed);
             now += end.thrust_time;
@@ -391,22 +420,25 @@ struct raibert_linear {
         if (!end.is_cut) {
             if (has_thrust) watch.event("thrust end", now, "thrust", "decompression", at, at, 0.0);
             watch.phase("decompression", now, end.rise_time, [&](double t, double* columns) {
-                stance_state<Variant>(lane, end.stiffness, end.pull, end.remaining, end.velocity, t, columns);
+                stance_state<Variant>(lane, end.stiffness, end.pull, end.remaining, end.velocity, t,
+                                      columns);
             });
             now += end.rise_time;
         }
         if (!end.exists) return;
         const double before[] = {lane.height, end.speed};
         const double after[] = {lane.height, touchdown};
-        watch.event("lift-off", now, end.is_cut ? "thrust" : "decompression", "flight", before, after,
-                    0.5 * (end.speed * end.speed - touchdown * touchdown));
+        watch.event("lift-off", now, end.is_cut ? "thrust" : "decompression", "flight", before,
+                    after, 0.5 * (end.speed * end.speed - touchdown * touchdown));
         const double rise = touchdown / lane.flight_gravity;
-        watch.phase("flight", now, lane.section == static_cast<double>(at_apex) ? rise : 2.0 * rise, [&](double t, double* columns) {
-            columns[0] = lane.height + t * (touchdown - 0.5 * lane.flight_gravity * t);
-            columns[1] = touchdown - lane.flight_gravity * t;
-        });
+        watch.phase("flight", now, lane.section == static_cast<double>(at_apex) ? rise : 2.0 * rise,
+                    [&](double t, double* columns) {
+                        columns[0] = lane.height + t * (touchdown - 0.5 * lane.flight_gravity * t);
+                        columns[1] = touchdown - lane.flight_gravity * t;
+                    });
         now += 2.0 * rise;
-        if (from_bottom && bottom.exists) report_compression<Variant>(lane, touchdown, now, bottom.time, watch);
+        if (from_bottom && bottom.exists)
+            report_compression<Variant>(lane, touchdown, now, bottom.time, watch);
     }
 };
 

@@ -1,6 +1,6 @@
-// Raibert's hopper on a linear spring, simplified so that touchdown and lift-off are the spring's rest
-// position and gravity in stance is absorbed. Source: Koditschek and Buehler 1991, Eqs (16), (17), (24), with
-// the corrections of models/raibert_hopper.md, sections 5 and 10.
+// Raibert's hopper on a linear spring, simplified so that touchdown and lift-off are the spring's
+// rest position and gravity in stance is absorbed. Source: Koditschek and Buehler 1991, Eqs (16),
+// (17), (24), with the corrections of models/raibert_hopper.md, sections 5 and 10.
 #pragma once
 
 #include "kernels/contract/model.hpp"
@@ -8,12 +8,15 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
-/// Stance oscillates with angular frequency omega and decay omega beta. E is the squared amplitude at the
-/// bottom, q = sqrt(1 + beta^2), psi and psi' the thrust's displacement and velocity in the same scale.
+/// Stance oscillates with angular frequency omega and decay omega beta. E is the squared amplitude
+/// at the bottom, q = sqrt(1 + beta^2), psi and psi' the thrust's displacement and velocity in the
+/// same scale.
 struct raibert_linear_simple {
     static constexpr parameter_info parameters[] = {
-        {"frequency", "omega", "1/s", 20.0, positive, "damped angular frequency of the stance spring"},
-        {"damping", "beta", "1", 0.2, positive, "friction 2 omega beta, stiffness omega^2 (1 + beta^2)"},
+        {"frequency", "omega", "1/s", 20.0, positive,
+         "damped angular frequency of the stance spring"},
+        {"damping", "beta", "1", 0.2, positive,
+         "friction 2 omega beta, stiffness omega^2 (1 + beta^2)"},
         {"thrust", "tau", "m/s^2", 1.0, positive, "net force of the thrust, gravity taken off"},
         {"thrust_time", "delta", "s", 0.01, non_negative, "duration of the thrust"},
         {"flight_gravity", "g", "m/s^2", 10.0, positive, "gravity in flight"},
@@ -21,14 +24,23 @@ struct raibert_linear_simple {
     enum parameter_index { frequency, damping, thrust, thrust_time, flight_gravity };
 
     static constexpr column_info bottom_columns[] = {
-        {"energy", "m^2/s^2", {0.0, unbounded, true, false}, "E = omega^2 (1 + beta^2) chi_b^2 at the bottom"}};
+        {"energy",
+         "m^2/s^2",
+         {0.0, unbounded, true, false},
+         "E = omega^2 (1 + beta^2) chi_b^2 at the bottom"}};
     static constexpr column_info phase_columns[] = {
-        {"phase", "rad", {0.0, unbounded, false, false}, "x = pi - theta at the end of the thrust (section 4.2)"}};
-    static constexpr column_info touchdown_columns[] = {
-        {"touchdown_speed", "m/s", {0.0, unbounded, true, false}, "speed of the body at touchdown"}};
+        {"phase",
+         "rad",
+         {0.0, unbounded, false, false},
+         "x = pi - theta at the end of the thrust (section 4.2)"}};
+    static constexpr column_info touchdown_columns[] = {{"touchdown_speed",
+                                                         "m/s",
+                                                         {0.0, unbounded, true, false},
+                                                         "speed of the body at touchdown"}};
     static constexpr section_info sections[] = {
         {"bottom", bottom_columns, 0, "lowest point of the stance"},
-        {"phase", phase_columns, 1, "lowest point of the stance, by the phase its thrust will end at"},
+        {"phase", phase_columns, 1,
+         "lowest point of the stance, by the phase its thrust will end at"},
         {"touchdown", touchdown_columns, 2, "the foot touches the ground"}};
     enum section_index { at_bottom, at_bottom_phase, at_touchdown };
     static constexpr extra_info extras[] = {
@@ -59,14 +71,15 @@ struct raibert_linear_simple {
     struct lane {
         Real frequency;
         Real beta;
-        Real scale;       // omega q: amplitude over displacement
+        Real scale;  // omega q: amplitude over displacement
         Real thrust;
         Real thrust_time;
         Real gravity;
-        Real psi;         // of the complete thrust
+        Real psi;  // of the complete thrust
         Real psi_rate;
         Real stance_phase;     // arctan(1 / beta), phase between rest position and bottom
-        Real touchdown_ratio;  // exp(-beta arctan(1 / beta)): amplitude at the bottom over touchdown speed
+        Real touchdown_ratio;  // exp(-beta arctan(1 / beta)): amplitude at the bottom over
+                               // touchdown speed
         Real amplitude;        // sqrt(E) at the bottom
         Real from_touchdown;
         Real thrust_cut;
@@ -88,7 +101,8 @@ struct raibert_linear_simple {
         lane.thrust_time = parameter[thrust_time];
         lane.gravity = parameter[flight_gravity];
         // corrected (24): displacement and velocity after the whole thrust
-        const auto at = raibert::friction_factors_at(Real(2.0) * lane.frequency * beta * lane.thrust_time);
+        const auto at =
+            raibert::friction_factors_at(Real(2.0) * lane.frequency * beta * lane.thrust_time);
         const Real velocity = lane.thrust * lane.thrust_time * at.first;
         const Real moved = lane.thrust * lane.thrust_time * lane.thrust_time * at.second;
         lane.psi = fma(lane.scale, moved, beta * velocity / q);
@@ -117,20 +131,23 @@ struct raibert_linear_simple {
 
     /// One hop: (17) while the thrust ends before lift-off, else lift-off out of the thrust.
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
+                                                Watch& watch) {
         const Real zero(0.0);
         const Real r = lane.amplitude;
         const Real left = lane.psi - r;
         // equality: the thrust ends first (page, 4.3)
         const mask_of<Real> cuts = active & (r < fma(-lane.beta, lane.psi_rate, lane.psi));
         const Real theta = atan2(lane.psi_rate, left);
-        Real next = sqrt(fma(left, left, lane.psi_rate * lane.psi_rate)) * exp(-(lane.beta * theta));
+        Real next =
+            sqrt(fma(left, left, lane.psi_rate * lane.psi_rate)) * exp(-(lane.beta * theta));
         Real thrust_phase = lane.thrust_time;
         Real rise = (theta - lane.stance_phase) / lane.frequency;
         if (any(cuts)) {
             const Real friction = Real(2.0) * lane.frequency * lane.beta;
             const Real depth = r / lane.scale;
-            const Real t = raibert::thrust_duration(friction, lane.thrust, depth, cuts & (r > zero));
+            const Real t =
+                raibert::thrust_duration(friction, lane.thrust, depth, cuts & (r > zero));
             const Real speed = lane.thrust * t * raibert::friction_factors_at(friction * t).first;
             next = select(cuts, select(r > zero, speed * lane.touchdown_ratio, r), next);
             thrust_phase = select(cuts, select(r > zero, t, zero), thrust_phase);
@@ -146,7 +163,8 @@ struct raibert_linear_simple {
             if constexpr (Watch::is_active) {
                 if (active) report_hop(lane, thrust_phase, rise, touchdown, cuts, watch);
             }
-            lane.time = select(active, lane.time + (compression + thrust_phase + rise + flight), lane.time);
+            lane.time =
+                select(active, lane.time + (compression + thrust_phase + rise + flight), lane.time);
         }
         // bottom, end of the thrust, lift-off, touchdown
         const mask_of<Real> has_end = !cuts & (lane.thrust_time > zero);
@@ -160,17 +178,20 @@ struct raibert_linear_simple {
 
     template <class Real>
     HOPSCOTCH_DEVICE static void read_state(const lane<Real>& lane, int section, Real* columns) {
-        if (section == at_bottom) columns[0] = lane.amplitude * lane.amplitude;
-        else if (section == at_bottom_phase) columns[0] = atan2(lane.psi_rate, lane.amplitude - lane.psi);
-        else columns[0] = lane.amplitude / lane.touchdown_ratio;
+        if (section == at_bottom)
+            columns[0] = lane.amplitude * lane.amplitude;
+        else if (section == at_bottom_phase)
+            columns[0] = atan2(lane.psi_rate, lane.amplitude - lane.psi);
+        else
+            columns[0] = lane.amplitude / lane.touchdown_ratio;
     }
     template <class Real>
     HOPSCOTCH_DEVICE static void read_extras(const lane<Real>& lane, Real* extra) {
         extra[0] = lane.thrust_cut;
     }
 
-    /// Theorem 2: where rho = psi / psi' is below the bound of corollary 8 (exact form), phases up to
-    /// pi/2, that is amplitudes from psi on, stay there and all tend to the fixed point.
+    /// Theorem 2: where rho = psi / psi' is below the bound of corollary 8 (exact form), phases up
+    /// to pi/2, that is amplitudes from psi on, stay there and all tend to the fixed point.
     template <int Variant, class Real>
     HOPSCOTCH_DEVICE static Real certificate(const lane<Real>& lane) {
         const Real zero(0.0);
@@ -189,12 +210,14 @@ struct raibert_linear_simple {
         const auto at = raibert::friction_factors_at(2.0 * scene.highest[frequency] * beta *
                                                      scene.highest[thrust_time]);
         const double rho =
-            q * q * scene.highest[frequency] * scene.highest[thrust_time] * at.second / at.first + beta;
+            q * q * scene.highest[frequency] * scene.highest[thrust_time] * at.second / at.first +
+            beta;
         return rho <= q * exp(-(beta * (0.5 * pi<double>() + atan2(beta, 1.0))));
     }
     static bool describe_label(int label, label_description& text) {
         if (label == 1) text = {.kind = "hopping dies", .trap = "no thrust, or no motion"};
-        if (label == 2) text = {.kind = "fixed point", .trap = "phases up to pi/2 stay there (Theorem 2)"};
+        if (label == 2)
+            text = {.kind = "fixed point", .trap = "phases up to pi/2 stay there (Theorem 2)"};
         return label == 1 || label == 2;
     }
     /// Beyond Theorem 2: the energies 0 ... 10^4 m^2/s^2, on which the return map is continuous.
@@ -203,7 +226,7 @@ struct raibert_linear_simple {
         return index == 0;
     }
 
-  private:
+private:
     /// Stance `t` after height z and velocity v.
     template <class Lane>
     static void spring_state(const Lane& lane, double z, double v, double t, double* columns) {
@@ -218,8 +241,9 @@ struct raibert_linear_simple {
     static void report_compression(const Lane& lane, double speed, double start, Watch& watch) {
         const double at[] = {0.0, -speed};
         watch.event("touchdown", start, "flight", "compression", at, at, 0.0);
-        watch.phase("compression", start, lane.stance_phase / lane.frequency,
-                    [&](double t, double* columns) { spring_state(lane, 0.0, -speed, t, columns); });
+        watch.phase(
+            "compression", start, lane.stance_phase / lane.frequency,
+            [&](double t, double* columns) { spring_state(lane, 0.0, -speed, t, columns); });
     }
     template <class Lane, class Watch>
     static void report_hop(const Lane& lane, double thrust_phase, double rise, double touchdown,
@@ -237,7 +261,8 @@ struct raibert_linear_simple {
             columns[1] = lane.thrust * t * at.first;
         };
         const double low[] = {bottom, 0.0};
-        watch.event("bottom", now, "compression", has_thrust ? "thrust" : "decompression", low, low, 0.0);
+        watch.event("bottom", now, "compression", has_thrust ? "thrust" : "decompression", low, low,
+                    0.0);
         double end[2] = {bottom, 0.0};
         if (has_thrust) {
             watch.phase("thrust", now, thrust_phase, thrust_state);
@@ -245,7 +270,8 @@ struct raibert_linear_simple {
             thrust_state(thrust_phase, end);
         }
         if (!cuts) {
-            if (has_thrust) watch.event("thrust end", now, "thrust", "decompression", end, end, 0.0);
+            if (has_thrust)
+                watch.event("thrust end", now, "thrust", "decompression", end, end, 0.0);
             watch.phase("decompression", now, rise, [&](double t, double* columns) {
                 spring_state(lane, end[0], end[1], t, columns);
             });

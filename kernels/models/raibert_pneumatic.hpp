@@ -1,6 +1,7 @@
-// Raibert's vertical hopper with a pneumatic leg and thrust of fixed force and time: one impact speed maps to
-// the next. Without friction a hop is one scalar root and closed forms; with friction two integrated arcs.
-// Source: models/raibert_hopper.md; Koditschek, Buehler, Int. J. Robotics Research 10(6), 1991, (7), (8).
+// Raibert's vertical hopper with a pneumatic leg and thrust of fixed force and time: one impact
+// speed maps to the next. Without friction a hop is one scalar root and closed forms; with friction
+// two integrated arcs. Source: models/raibert_hopper.md; Koditschek, Buehler, Int. J. Robotics
+// Research 10(6), 1991, (7), (8).
 #pragma once
 
 #include "kernels/contract/model.hpp"
@@ -13,31 +14,44 @@ namespace hopscotch::inline HOPSCOTCH_TARGET {
 struct raibert_pneumatic {
     static constexpr parameter_info parameters[] = {
         {"liftoff_height", "chi_l", "m", 0.5, positive, "height of touchdown and lift-off"},
-        {"stiffness", "eta1", "m^2/s^2", 5.81, positive, "spring: force eta1 / height while it compresses"},
+        {"stiffness", "eta1", "m^2/s^2", 5.81, positive,
+         "spring: force eta1 / height while it compresses"},
         {"thrust", "tau", "m/s^2", 41.86, positive, "force of thrust"},
         {"thrust_time", "delta", "s", 0.01, non_negative, "duration of thrust"},
         {"friction", "gamma", "1/s", 2.33, non_negative, "viscous friction in stance"},
         {"stance_gravity", "g", "m/s^2", 10.0, non_negative, "gravity in stance"},
         {"flight_gravity", "g_f", "m/s^2", 10.0, positive, "gravity in flight"},
         {"leg_mass_ratio", "mu'", "1", 0.0, non_negative, "leg mass / body mass"}};
-    enum parameter_index { liftoff_height, stiffness, thrust, thrust_time, friction, stance_gravity, flight_gravity, leg_mass_ratio };
+    enum parameter_index {
+        liftoff_height,
+        stiffness,
+        thrust,
+        thrust_time,
+        friction,
+        stance_gravity,
+        flight_gravity,
+        leg_mass_ratio
+    };
 
     static constexpr column_info touchdown_columns[] = {
         {"touchdown_speed", "m/s", positive, "downward speed at touchdown"}};
     static constexpr column_info apex_columns[] = {
         {"apex_height", "m", positive, "height of the apex, above lift-off height"}};
     static constexpr column_info bottom_columns[] = {
-        {"bottom_height", "m", positive, "height at the bottom, below lift-off height; thrust begins"}};
+        {"bottom_height", "m", positive,
+         "height at the bottom, below lift-off height; thrust begins"}};
     static constexpr section_info sections[] = {
         {"touchdown", touchdown_columns, 0, "the foot touches the ground"},
         {"apex", apex_columns, 1, "top of the flight"},
         {"bottom", bottom_columns, 2, "the leg is shortest"}};
     static constexpr extra_info extras[] = {
         {"thrust_cut", "1", "1 once a lift-off cut thrust short"}};
-    static constexpr outcome outcomes[] = {outcome::ok,    outcome::no_liftoff, outcome::sinks,
-                                           outcome::crash, outcome::creep,      outcome::unresolved_event};
-    static constexpr column_info trace_columns[] = {{"height", "m", any_finite, "height of the body"},
-                                                    {"velocity", "m/s", any_finite, "upward velocity"}};
+    static constexpr outcome outcomes[] = {outcome::ok,    outcome::no_liftoff,
+                                           outcome::sinks, outcome::crash,
+                                           outcome::creep, outcome::unresolved_event};
+    static constexpr column_info trace_columns[] = {
+        {"height", "m", any_finite, "height of the body"},
+        {"velocity", "m/s", any_finite, "upward velocity"}};
     static constexpr model_info info{
         .name = "raibert_pneumatic",
         .title = "Vertical hopper with a pneumatic leg and fixed thrust",
@@ -60,17 +74,19 @@ struct raibert_pneumatic {
 
     template <class Real>
     struct lane {
-        Real lift_height, stiffness, thrust, thrust_time, friction, gravity, flight_gravity, leg_factor;
-        Real section;     // index
-        Real speed;       // of the last touchdown
-        Real bottom;      // height of the last bottom
+        Real lift_height, stiffness, thrust, thrust_time, friction, gravity, flight_gravity,
+            leg_factor;
+        Real section;                  // index
+        Real speed;                    // of the last touchdown
+        Real bottom;                   // height of the last bottom
         Real length, depth, velocity;  // stance: chi, chi_l - chi, chi'
-        Real spring;      // eta2 while the leg extends
-        Real extending;   // 1 in decompression
-        Real fresh;       // 1 at the beginning of an arc
+        Real spring;                   // eta2 while the leg extends
+        Real extending;                // 1 in decompression
+        Real fresh;                    // 1 at the beginning of an arc
         Real arc_time, arc_steps;
         Real was_cut;
-        Real owed;        // time from the section state to where `time` must begin: the fall from the apex
+        Real
+            owed;  // time from the section state to where `time` must begin: the fall from the apex
         Real time, events;
     };
 
@@ -89,7 +105,8 @@ struct raibert_pneumatic {
         lane.leg_factor = one + parameter[leg_mass_ratio];
         lane.section = Real(static_cast<double>(section));
         lane.bottom = lane.length = lane.lift_height;
-        lane.depth = lane.velocity = lane.extending = lane.arc_time = lane.arc_steps = lane.was_cut = zero;
+        lane.depth = lane.velocity = lane.extending = lane.arc_time = lane.arc_steps =
+            lane.was_cut = zero;
         lane.spring = lane.thrust * lane.lift_height;
         lane.time = lane.events = lane.owed = zero;
         lane.speed = lane.fresh = one;
@@ -117,7 +134,8 @@ struct raibert_pneumatic {
     }
 
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
+                                                Watch& watch) {
         // a trace needs the motion in time, which exact hops skip
         if constexpr (Variant == 0 || Watch::is_active) {
             return step_with_friction(lane, active, watch);
@@ -129,7 +147,9 @@ struct raibert_pneumatic {
     template <class Real>
     HOPSCOTCH_DEVICE static void read_state(const lane<Real>& lane, int section, Real* columns) {
         if (section == 0) columns[0] = lane.speed;
-        if (section == 1) columns[0] = lane.lift_height + lane.speed * lane.speed / (Real(2.0) * lane.flight_gravity);
+        if (section == 1)
+            columns[0] =
+                lane.lift_height + lane.speed * lane.speed / (Real(2.0) * lane.flight_gravity);
         if (section == 2) columns[0] = lane.bottom;
     }
     template <class Real>
@@ -137,7 +157,7 @@ struct raibert_pneumatic {
         extra[0] = lane.was_cut;
     }
 
-  private:
+private:
     /// Below this speed a hop obeys v' = P'(0) v (page, sections 4.6 and 8.10).
     static constexpr double slowest_impact = 1e-8;
     /// A decompression longer than this, in steps or seconds, is reported as `creep`.
@@ -145,7 +165,8 @@ struct raibert_pneumatic {
     static constexpr double longest_arc = 1e6;
 
     template <class Real>
-    HOPSCOTCH_DEVICE static void begin_arc(lane<Real>& lane, const Real& extending, const mask_of<Real>& wanted) {
+    HOPSCOTCH_DEVICE static void begin_arc(lane<Real>& lane, const Real& extending,
+                                           const mask_of<Real>& wanted) {
         const Real zero(0.0);
         lane.extending = select(wanted, extending, lane.extending);
         lane.fresh = select(wanted, Real(1.0), lane.fresh);
@@ -181,7 +202,8 @@ struct raibert_pneumatic {
 
     /// Thrust from the bottom on; lanes whose thrust is cut are at lift-off (depth 0) afterwards.
     template <class Real, class Watch>
-    HOPSCOTCH_DEVICE static pneumatic::thrust_end<Real> push_off(lane<Real>& lane, const mask_of<Real>& wanted,
+    HOPSCOTCH_DEVICE static pneumatic::thrust_end<Real> push_off(lane<Real>& lane,
+                                                                 const mask_of<Real>& wanted,
                                                                  Watch& watch) {
         const Real zero(0.0);
         const Real one(1.0);
@@ -196,7 +218,8 @@ struct raibert_pneumatic {
             });
         }
         const mask_of<Real> full = wanted & !end.cut;
-        lane.length = select(full, lane.length + end.rise, select(end.cut, lane.lift_height, lane.length));
+        lane.length =
+            select(full, lane.length + end.rise, select(end.cut, lane.lift_height, lane.length));
         lane.depth = select(full, lane.depth - end.rise, select(end.cut, zero, lane.depth));
         lane.velocity = select(wanted, end.velocity, lane.velocity);
         lane.time = select(wanted, lane.time + end.duration, lane.time);
@@ -205,7 +228,9 @@ struct raibert_pneumatic {
         lane.events = select(full, lane.events + one, lane.events);
         lane.fresh = select(wanted, zero, lane.fresh);
         if constexpr (Watch::is_active) {
-            if (full) report(watch, "thrust end", lane, "thrust", "decompression", lane.velocity, lane.velocity);
+            if (full)
+                report(watch, "thrust end", lane, "thrust", "decompression", lane.velocity,
+                       lane.velocity);
         }
         return end;
     }
@@ -219,28 +244,29 @@ struct raibert_pneumatic {
         return select(shallow, -log1p(-share), log(lane.lift_height / length));
     }
 
-    /// Square of the speed at which decompression would reach lift-off without friction; <= 0: it does not,
-    /// with friction neither (page, section 4.9).
+    /// Square of the speed at which decompression would reach lift-off without friction; <= 0: it
+    /// does not, with friction neither (page, section 4.9).
     template <class Real>
     HOPSCOTCH_DEVICE static Real liftoff_square(const lane<Real>& lane, const Real& log_depth) {
         const Real gained = fma(lane.spring, log_depth, -(lane.gravity * lane.depth));
         return fma(Real(2.0), gained, lane.velocity * lane.velocity);
     }
 
-    /// Lift-off at `speed`, the leg's inertia, and the flight to the next touchdown. Returns the lanes whose
-    /// return this completes; those counted at the apex owe the fall to their next one.
+    /// Lift-off at `speed`, the leg's inertia, and the flight to the next touchdown. Returns the
+    /// lanes whose return this completes; those counted at the apex owe the fall to their next one.
     template <class Real, class Watch>
-    HOPSCOTCH_DEVICE static mask_of<Real> fly(lane<Real>& lane, const Real& speed, const mask_of<Real>& wanted,
-                                              Watch& watch) {
+    HOPSCOTCH_DEVICE static mask_of<Real> fly(lane<Real>& lane, const Real& speed,
+                                              const mask_of<Real>& wanted, Watch& watch) {
         const Real one(1.0);
         const Real next = speed / lane.leg_factor;
         const Real rise = next / lane.flight_gravity;
         if constexpr (Watch::is_active) {
             if (wanted) {
-                report(watch, "lift-off", lane, lane.depth == Real(0.0) ? "thrust" : "decompression", "flight",
-                       speed, next);
+                report(watch, "lift-off", lane,
+                       lane.depth == Real(0.0) ? "thrust" : "decompression", "flight", speed, next);
                 watch.phase("flight", lane.time, rise + rise, [&](Real t, Real* columns) {
-                    columns[0] = lane.lift_height + t * fma(Real(-0.5) * lane.flight_gravity, t, next);
+                    columns[0] =
+                        lane.lift_height + t * fma(Real(-0.5) * lane.flight_gravity, t, next);
                     columns[1] = fma(-lane.flight_gravity, t, next);
                 });
             }
@@ -256,7 +282,8 @@ struct raibert_pneumatic {
 
     /// Hops so small that their arcs merge: v' = P'(0) v, P'(0)^2 = (tau - g) / (eta1 / chi_l - g).
     template <class Real, class Watch>
-    HOPSCOTCH_DEVICE static mask_of<Real> hop_tiny(lane<Real>& lane, const mask_of<Real>& wanted, Watch& watch) {
+    HOPSCOTCH_DEVICE static mask_of<Real> hop_tiny(lane<Real>& lane, const mask_of<Real>& wanted,
+                                                   Watch& watch) {
         const Real zero(0.0);
         const Real net = lane.thrust - lane.gravity;
         const Real braking = lane.stiffness / lane.lift_height - lane.gravity;
@@ -281,7 +308,8 @@ struct raibert_pneumatic {
 
     /// A compression, or a thrust with its decompression and flight; both where the section allows.
     template <bool IsTimed, class Real>
-    HOPSCOTCH_DEVICE static progress<Real> step_without_friction(lane<Real>& lane, const mask_of<Real>& active) {
+    HOPSCOTCH_DEVICE static progress<Real> step_without_friction(lane<Real>& lane,
+                                                                 const mask_of<Real>& active) {
         const Real zero(0.0);
         unwatched watch;
         pay(lane, active);
@@ -294,8 +322,8 @@ struct raibert_pneumatic {
             lane.length = select(falls, lane.lift_height * exp(-x), lane.length);
             lane.depth = select(falls, -(lane.lift_height * expm1(-x)), lane.depth);
             if constexpr (IsTimed) {
-                const Real duration =
-                    pneumatic::arc_duration(x, zero, lane.stiffness, lane.gravity, lane.lift_height);
+                const Real duration = pneumatic::arc_duration(x, zero, lane.stiffness, lane.gravity,
+                                                              lane.lift_height);
                 lane.time = select(falls, lane.time + duration, lane.time);
             }
             reach_bottom(lane, falls);
@@ -305,11 +333,12 @@ struct raibert_pneumatic {
         const auto end = push_off(lane, pushes, watch);
         const Real log_depth = logarithmic_depth(lane);
         const Real square = liftoff_square(lane, log_depth);
-        const mask_of<Real> lifts = pushes & !end.crashes &
-                                    (end.cut | ((square > zero) & (lane.thrust > lane.gravity)));
+        const mask_of<Real> lifts =
+            pushes & !end.crashes & (end.cut | ((square > zero) & (lane.thrust > lane.gravity)));
         if constexpr (IsTimed) {
-            const Real duration = pneumatic::arc_duration(log_depth, lane.velocity * lane.velocity,
-                                                          lane.spring, lane.gravity, lane.lift_height);
+            const Real duration =
+                pneumatic::arc_duration(log_depth, lane.velocity * lane.velocity, lane.spring,
+                                        lane.gravity, lane.lift_height);
             lane.time = select(lifts & !end.cut, lane.time + duration, lane.time);
         }
         const Real speed = select(end.cut, lane.velocity, sqrt(select(lifts, square, Real(1.0))));
@@ -321,9 +350,11 @@ struct raibert_pneumatic {
         return {returned, ended};
     }
 
-    /// Slow impacts on an overdamped leg creep towards the equilibrium and have no bottom (section 4.10).
+    /// Slow impacts on an overdamped leg creep towards the equilibrium and have no bottom
+    /// (section 4.10).
     template <class Real>
-    HOPSCOTCH_DEVICE static mask_of<Real> sinks(const lane<Real>& lane, const mask_of<Real>& compresses) {
+    HOPSCOTCH_DEVICE static mask_of<Real> sinks(const lane<Real>& lane,
+                                                const mask_of<Real>& compresses) {
         const Real zero(0.0);
         const mask_of<Real> soft = compresses & (lane.stiffness < lane.gravity * lane.lift_height);
         const Real root = fma(lane.friction, lane.friction,
@@ -336,7 +367,8 @@ struct raibert_pneumatic {
 
     /// One integrator step of an arc; thrust is taken at the beginning of decompression.
     template <class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step_with_friction(lane<Real>& lane, const mask_of<Real>& active,
+    HOPSCOTCH_DEVICE static progress<Real> step_with_friction(lane<Real>& lane,
+                                                              const mask_of<Real>& active,
                                                               Watch& watch) {
         using plain = primal_of<Real>;
         const Real zero(0.0);
@@ -357,18 +389,21 @@ struct raibert_pneumatic {
         lane.fresh = select(moving & !cut, zero, lane.fresh);
         const mask_of<Real> extends = moving & !cut & !crashes & (lane.extending > zero);
         const mask_of<Real> compresses = moving & !cut & !(lane.extending > zero);
-        const mask_of<Real> fails = extends & !((liftoff_square(lane, logarithmic_depth(lane)) > zero) &
-                                                (lane.thrust > lane.gravity));
+        const mask_of<Real> fails =
+            extends & !((liftoff_square(lane, logarithmic_depth(lane)) > zero) &
+                        (lane.thrust > lane.gravity));
         const mask_of<Real> stays = sinks(lane, compresses);
         const mask_of<Real> flows = (extends & !fails) | (compresses & !stays);
 
         const pneumatic::arc_state<Real> from{lane.length, lane.depth, lane.velocity};
-        const auto a = pneumatic::expand(from, select(lane.extending > zero, lane.spring, lane.stiffness),
-                                         lane.friction, lane.gravity);
+        const auto a =
+            pneumatic::expand(from, select(lane.extending > zero, lane.spring, lane.stiffness),
+                              lane.friction, lane.gravity);
         const plain horizon = pneumatic::step_of(a);
         const Real still = select(extends & (lane.velocity == zero), one, zero);
         taylor::series<Real> turning = taylor::without_zeros(a.velocity, still);
-        for (int n = 0; n <= taylor::order<Real>; ++n) turning.c[n] = negate_where(compresses, turning.c[n]);
+        for (int n = 0; n <= taylor::order<Real>; ++n)
+            turning.c[n] = negate_where(compresses, turning.c[n]);
         const auto turn = taylor::first_zero(turning, horizon, flows);
         const auto off = taylor::first_zero(a.depth, horizon, flows & extends);
         const mask_of<Real> lifts = flows & off.found & !(turn.found & (turn.time < off.time));
@@ -377,7 +412,8 @@ struct raibert_pneumatic {
         const Real passed = taylor::evaluate(a.time, s);
         if constexpr (Watch::is_active) {
             if (fresh && compresses) {
-                report(watch, "touchdown", lane, "flight", "compression", lane.velocity, lane.velocity);
+                report(watch, "touchdown", lane, "flight", "compression", lane.velocity,
+                       lane.velocity);
             }
             if (flows) {
                 watch.phase(compresses ? "compression" : "decompression", lane.time, passed,
@@ -402,10 +438,11 @@ struct raibert_pneumatic {
         }
         const mask_of<Real> lost = flows & ((turn.unresolved & !lifts) | (off.unresolved & !turns));
         const mask_of<Real> broken = flows & !(horizon >= plain(0.0));
-        const mask_of<Real> creeps = extends & flows & !lifts & !turns &
-                                     ((lane.arc_steps > Real(most_arc_steps)) |
-                                      (lane.arc_time > Real(longest_arc)));
-        returned = returned | fly(lane, lane.velocity, lifts, watch) | (bottoms & (lane.section == Real(2.0)));
+        const mask_of<Real> creeps =
+            extends & flows & !lifts & !turns &
+            ((lane.arc_steps > Real(most_arc_steps)) | (lane.arc_time > Real(longest_arc)));
+        returned = returned | fly(lane, lane.velocity, lifts, watch) |
+                   (bottoms & (lane.section == Real(2.0)));
         Real ended = select(fails | (turns & extends), code_of<Real>(outcome::no_liftoff), zero);
         ended = select(stays, code_of<Real>(outcome::sinks), ended);
         ended = select(crashes, code_of<Real>(outcome::crash), ended);

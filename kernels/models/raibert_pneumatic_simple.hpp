@@ -1,5 +1,6 @@
-// Raibert's hopper on an air spring, stripped to its one-parameter map: no friction, no gravity in stance,
-// an instantaneous thrust at the bottom. Source: Koditschek and Buehler 1991, Eqs (9), (15), (18), (19).
+// Raibert's hopper on an air spring, stripped to its one-parameter map: no friction, no gravity in
+// stance, an instantaneous thrust at the bottom. Source: Koditschek and Buehler 1991, Eqs (9),
+// (15), (18), (19).
 #pragma once
 
 #include "kernels/contract/model.hpp"
@@ -19,22 +20,37 @@ namespace hopscotch::inline HOPSCOTCH_TARGET {
 /// | thrust | tau | | energy | E |
 struct raibert_pneumatic_simple {
     static constexpr parameter_info parameters[] = {
-        {"liftoff_height", "chi_l", "m", 0.5, positive, "height of the body at touchdown and lift-off"},
-        {"stiffness", "eta_1", "m^2/s^2", 5.81, positive, "air spring in compression, force eta_1 / chi"},
+        {"liftoff_height", "chi_l", "m", 0.5, positive,
+         "height of the body at touchdown and lift-off"},
+        {"stiffness", "eta_1", "m^2/s^2", 5.81, positive,
+         "air spring in compression, force eta_1 / chi"},
         {"thrust", "tau", "m/s^2", 41.86, positive, "force of the thrust at the bottom"},
         {"flight_gravity", "g", "m/s^2", 10.0, positive, "gravity in flight"},
         {"leg_mass_ratio", "mu'", "1", 0.0, non_negative, "mass of the leg over mass of the body"},
         {"gain", "alpha", "1", __builtin_nan(""), positive,
-         "thrust liftoff_height / (stiffness (1 + mu')^2); replaces thrust and leg mass where given"},
+         "thrust liftoff_height / (stiffness (1 + mu')^2); replaces thrust and leg mass where "
+         "given"},
     };
-    enum parameter_index { liftoff_height, stiffness, thrust, flight_gravity, leg_mass_ratio, gain };
+    enum parameter_index {
+        liftoff_height,
+        stiffness,
+        thrust,
+        flight_gravity,
+        leg_mass_ratio,
+        gain
+    };
 
     static constexpr column_info bottom_columns[] = {
-        {"bottom_height", "m", {0.0, unbounded, false, false}, "chi_b, height of the body at the bottom, at most liftoff_height"}};
+        {"bottom_height",
+         "m",
+         {0.0, unbounded, false, false},
+         "chi_b, height of the body at the bottom, at most liftoff_height"}};
     static constexpr column_info energy_columns[] = {
         {"energy", "1", {0.0, unbounded, true, false}, "E = ln(liftoff_height / bottom_height)"}};
-    static constexpr column_info touchdown_columns[] = {
-        {"touchdown_speed", "m/s", {0.0, unbounded, true, false}, "speed of the body at touchdown"}};
+    static constexpr column_info touchdown_columns[] = {{"touchdown_speed",
+                                                         "m/s",
+                                                         {0.0, unbounded, true, false},
+                                                         "speed of the body at touchdown"}};
     static constexpr section_info sections[] = {
         {"bottom", bottom_columns, 0, "lowest point of the stance"},
         {"energy", energy_columns, 1, "lowest point of the stance, in energy coordinates (18)"},
@@ -65,19 +81,20 @@ struct raibert_pneumatic_simple {
 
     template <class Real>
     struct lane {
-        Real gain;         // alpha
-        Real height;       // chi_l
+        Real gain;    // alpha
+        Real height;  // chi_l
         Real stiffness;
         Real thrust;
         Real gravity;
-        Real energy;       // E at the bottom that the next return starts from, or passes first
-        Real log_energy;   // ln E, kept only where E itself underflows
+        Real energy;      // E at the bottom that the next return starts from, or passes first
+        Real log_energy;  // ln E, kept only where E itself underflows
         Real from_touchdown;
         Real time;
         Real events;
     };
 
-    /// Below this energy its logarithm is iterated instead; above `deep_fall` the next one lies there.
+    /// Below this energy its logarithm is iterated instead; above `deep_fall` the next one lies
+    /// there.
     static constexpr double deep_energy = 1e-290;
     static constexpr double deep_fall = 600.0;
 
@@ -105,7 +122,8 @@ struct raibert_pneumatic_simple {
             valid = (x > zero) & (x <= height);
             const mask_of<Real> is_tiny = x < Real(1e-290) * height;
             const Real safe = select(is_tiny, height, x);
-            lane.energy = log1p((height - safe) / safe);  // exact difference next to lift-off height
+            lane.energy =
+                log1p((height - safe) / safe);  // exact difference next to lift-off height
             if (any(is_tiny)) lane.energy = select(is_tiny, log(height) - log(x), lane.energy);
         } else if (section == at_bottom_energy) {
             lane.energy = x;
@@ -127,7 +145,8 @@ struct raibert_pneumatic_simple {
     }
 
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
+                                                Watch& watch) {
         const Real zero(0.0);
         const Real now = lane.energy;
         const mask_of<Real> deep = now < Real(deep_energy);
@@ -144,12 +163,13 @@ struct raibert_pneumatic_simple {
             }
             const Real touchdown = speed_of(lane.stiffness, next, lane.log_energy);
             const Real flight = Real(2.0) * touchdown / lane.gravity;
-            const Real compression = compression_time(
-                lane, select(lane.from_touchdown > zero, now, next));
+            const Real compression =
+                compression_time(lane, select(lane.from_touchdown > zero, now, next));
             const Real hop = compression + decompression_time(lane, now) + flight;
             lane.time = select(active, lane.time + hop, lane.time);
         }
-        lane.events = select(active, lane.events + Real(3.0), lane.events);  // bottom, lift-off, touchdown
+        lane.events =
+            select(active, lane.events + Real(3.0), lane.events);  // bottom, lift-off, touchdown
         lane.energy = select(active, next, lane.energy);
         const mask_of<Real> lost = active & !(next == next);
         const mask_of<Real> returned = active & !lost;
@@ -158,15 +178,18 @@ struct raibert_pneumatic_simple {
 
     template <class Real>
     HOPSCOTCH_DEVICE static void read_state(const lane<Real>& lane, int section, Real* columns) {
-        if (section == at_bottom) columns[0] = lane.height * exp(-lane.energy);
-        else if (section == at_bottom_energy) columns[0] = lane.energy;
-        else columns[0] = speed_of(lane.stiffness, lane.energy, lane.log_energy);
+        if (section == at_bottom)
+            columns[0] = lane.height * exp(-lane.energy);
+        else if (section == at_bottom_energy)
+            columns[0] = lane.energy;
+        else
+            columns[0] = speed_of(lane.stiffness, lane.energy, lane.log_energy);
     }
     template <class Real>
     HOPSCOTCH_DEVICE static void read_extras(const lane<Real>&, Real*) {}
 
-    /// Theorem 1 and the cascade of section 6 of the page: the gain alone tells where an orbit with E > 0
-    /// ends, up to starts of measure zero on unstable cycles.
+    /// Theorem 1 and the cascade of section 6 of the page: the gain alone tells where an orbit with
+    /// E > 0 ends, up to starts of measure zero on unstable cycles.
     template <int Variant, class Real>
     HOPSCOTCH_DEVICE static Real certificate(const lane<Real>& lane) {
         // e^2, then where the cycles of period 2, 4 ... 128 have multiplier -1 (50-digit Newton)
@@ -177,15 +200,17 @@ struct raibert_pneumatic_simple {
         const mask_of<Real> is_deep = lane.energy < Real(deep_energy);
         const mask_of<Real> at_rest = is_deep & !(lane.log_energy > -infinity<Real>());
         const mask_of<Real> dies = (lane.gain <= Real(1.0)) | at_rest;
-        return select(dies, Real(static_cast<double>(resting_label)), cascade_label(cascade, lane.gain));
+        return select(dies, Real(static_cast<double>(resting_label)),
+                      cascade_label(cascade, lane.gain));
     }
     static bool certificate_covers(const variant_query&) { return true; }
     static bool describe_label(int label, label_description& text) {
         return describe_cascade_label(label, "hopping dies",
-                                      "every start but a set of measure zero (negative Schwarzian)", text);
+                                      "every start but a set of measure zero (negative Schwarzian)",
+                                      text);
     }
 
-  private:
+private:
     template <class Real>
     HOPSCOTCH_DEVICE static Real speed_of(const Real& stiffness, const Real& energy,
                                           const Real& log_energy) {
@@ -198,7 +223,8 @@ struct raibert_pneumatic_simple {
     /// chi_l sqrt(2 / eta) D(sqrt E): from touchdown to the bottom of energy E.
     template <class Real>
     HOPSCOTCH_DEVICE static Real compression_time(const lane<Real>& lane, const Real& energy) {
-        return lane.height * sqrt(Real(2.0) * energy / lane.stiffness) * raibert::dawson_over_root(energy);
+        return lane.height * sqrt(Real(2.0) * energy / lane.stiffness) *
+               raibert::dawson_over_root(energy);
     }
     /// The same on the spring eta_2 = tau chi_b that the thrust leaves behind.
     template <class Real>

@@ -1,6 +1,7 @@
-// The impacting pressure relief valve: a disc on a spring that lifts off its seat under the pressure of a
-// chamber filled at a constant rate, and bounces on the seat. The field's benchmark of impacting ensembles.
-// Source: PEERS.md; Hegedus, Hos, Kulesza et al. (MPGOS); Hos, Champneys, SIAM J. Appl. Dyn. Syst. (2012).
+// The impacting pressure relief valve: a disc on a spring that lifts off its seat under the
+// pressure of a chamber filled at a constant rate, and bounces on the seat. The field's benchmark
+// of impacting ensembles. Source: PEERS.md; Hegedus, Hos, Kulesza et al. (MPGOS); Hos, Champneys,
+// SIAM J. Appl. Dyn. Syst. (2012).
 //   x' = v,  v' = -damping v - (x + offset) + p,  p' = gain (flow_rate - x sqrt p);  x >= 0
 #pragma once
 
@@ -13,7 +14,8 @@ namespace hopscotch::inline HOPSCOTCH_TARGET {
 struct relief_valve {
     static constexpr parameter_info parameters[] = {
         {"damping", "kappa", "1", 1.25, non_negative, "damping of the disc"},
-        {"offset", "delta", "1", 10.0, positive, "spring force on the closed disc: opening pressure"},
+        {"offset", "delta", "1", 10.0, positive,
+         "spring force on the closed disc: opening pressure"},
         {"gain", "beta", "1", 20.0, positive, "compressibility: pressure rate per flow"},
         {"restitution", "r", "1", 0.8, {0.0, 1.0}, "restitution of the seat"},
         {"flow_rate", "q", "1", 5.0, positive, "flow into the chamber"}};
@@ -23,7 +25,8 @@ struct relief_valve {
         {"x", "1", non_negative, "displacement of the disc"},
         {"p", "1", non_negative, "pressure in the chamber"}};
     static constexpr section_info sections[] = {
-        {"maximum", maximum_columns, 0, "local maximum of x (v = 0); any start with v = 0 is legal"}};
+        {"maximum", maximum_columns, 0,
+         "local maximum of x (v = 0); any start with v = 0 is legal"}};
     static constexpr extra_info extras[] = {
         {"impacts", "1", "impacts on the seat, summed over returns"}};
     static constexpr outcome outcomes[] = {outcome::ok, outcome::rest, outcome::unresolved_event};
@@ -49,11 +52,12 @@ struct relief_valve {
     template <class Real>
     struct lane {
         Real damping, offset, gain, restitution, flow;
-        Real x, v, root;     // root = sqrt p
-        Real rising;         // 1: the next turn is a maximum, 0: a minimum
-        Real seat_zeros;     // leading coefficients of x that vanish: 1 after an impact, 2 or 3 at rest on it
-        Real turn_zeros;     // of v
-        Real top_x, top_p;   // section state
+        Real x, v, root;    // root = sqrt p
+        Real rising;        // 1: the next turn is a maximum, 0: a minimum
+        Real seat_zeros;    // leading coefficients of x that vanish: 1 after an impact, 2 or 3 at
+                            // rest on it
+        Real turn_zeros;    // of v
+        Real top_x, top_p;  // section state
         Real impacts;
         Real time, events;
     };
@@ -68,7 +72,8 @@ struct relief_valve {
         lane.restitution = parameter[restitution];
         lane.flow = parameter[flow_rate];
         const mask_of<Real> valid = (columns[0] >= zero) & (columns[1] >= zero) &
-                                    (columns[0] - columns[0] == zero) & (columns[1] - columns[1] == zero);
+                                    (columns[0] - columns[0] == zero) &
+                                    (columns[1] - columns[1] == zero);
         lane.x = lane.top_x = select(valid, columns[0], zero);
         lane.top_p = select(valid, columns[1], zero);
         lane.root = sqrt(lane.top_p);
@@ -83,7 +88,8 @@ struct relief_valve {
     }
 
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
+                                                Watch& watch) {
         using plain = primal_of<Real>;
         const Real zero(0.0);
         const Real one(1.0);
@@ -94,7 +100,8 @@ struct relief_valve {
             taylor::first_zero(taylor::without_zeros(a.x, lane.seat_zeros), horizon, active);
         taylor::series<Real> turning = taylor::without_zeros(a.v, lane.turn_zeros);
         const mask_of<Real> rises = lane.rising > zero;
-        for (int n = 0; n <= taylor::order<Real>; ++n) turning.c[n] = negate_where(!rises, turning.c[n]);
+        for (int n = 0; n <= taylor::order<Real>; ++n)
+            turning.c[n] = negate_where(!rises, turning.c[n]);
         const auto flat = taylor::first_zero(turning, horizon, active);
 
         const mask_of<Real> hits = active & seat.found & !(flat.found & (flat.time < seat.time));
@@ -102,7 +109,8 @@ struct relief_valve {
         const Real s = select(hits, seat.time, select(turns, flat.time, Real(horizon)));
         const Real passed = taylor::evaluate(a.time, s);
         if constexpr (Watch::is_active) {
-            watch.phase("open", lane.time, passed, [&](Real t, Real* columns) { a.sample(t, s, columns); });
+            watch.phase("open", lane.time, passed,
+                        [&](Real t, Real* columns) { a.sample(t, s, columns); });
         }
         lane.time = select(active, lane.time + passed, lane.time);
         lane.root = select(active, taylor::evaluate(a.root, s), lane.root);
@@ -118,7 +126,8 @@ struct relief_valve {
         if (any(hits)) hit_seat(lane, hits, watch);
 
         const mask_of<Real> broken = active & !(horizon >= plain(0.0));
-        const mask_of<Real> lost = active & ((seat.unresolved & !turns) | (flat.unresolved & !hits));
+        const mask_of<Real> lost =
+            active & ((seat.unresolved & !turns) | (flat.unresolved & !hits));
         Real ended = select(settled, code_of<Real>(outcome::rest), zero);
         ended = select(lost, code_of<Real>(outcome::unresolved_event), ended);
         ended = select(broken, code_of<Real>(outcome::not_finite), ended);
@@ -137,10 +146,11 @@ struct relief_valve {
         extra[0] = lane.impacts;
     }
 
-  private:
-    /// One step's motion in the time s with dt = 2 sqrt(p) ds, in which the right-hand side is polynomial
-    /// and an empty chamber (p = 0) is a regular point:
-    ///   x' = 2 r v,  v' = 2 r (r^2 - x - offset - damping v),  r' = gain (flow_rate - x r),  t' = 2 r.
+private:
+    /// One step's motion in the time s with dt = 2 sqrt(p) ds, in which the right-hand side is
+    /// polynomial and an empty chamber (p = 0) is a regular point:
+    ///   x' = 2 r v,  v' = 2 r (r^2 - x - offset - damping v),  r' = gain (flow_rate - x r),  t' =
+    ///   2 r.
     template <class Real>
     struct motion {
         taylor::series<Real> x, v, root, time;
@@ -153,7 +163,8 @@ struct relief_valve {
                 at.value = at.value - t;
                 return at;
             };
-            const Real s = bracketed_root<Real>(rising, {Real(0.0), end}, end * Real(0.5), end > Real(0.0));
+            const Real s =
+                bracketed_root<Real>(rising, {Real(0.0), end}, end * Real(0.5), end > Real(0.0));
             columns[0] = taylor::evaluate(x, s);
             columns[1] = taylor::evaluate(v, s);
             const Real r = taylor::evaluate(root, s);
@@ -197,8 +208,8 @@ struct relief_valve {
         return a;
     }
 
-    /// Acceleration and pressure rate of the disc at v = 0, rounded as in `expand`, so that their signs are
-    /// those of the series.
+    /// Acceleration and pressure rate of the disc at v = 0, rounded as in `expand`, so that their
+    /// signs are those of the series.
     template <class Real>
     HOPSCOTCH_DEVICE static Real acceleration(const lane<Real>& lane) {
         return (lane.root * lane.root - lane.x) - lane.offset;
@@ -208,8 +219,8 @@ struct relief_valve {
         return lane.flow - lane.x * lane.root;
     }
 
-    /// Prepares the motion that follows v = 0 above the seat; returns the lanes that are at the equilibrium
-    /// to rounding, where the sign of the acceleration means nothing any more.
+    /// Prepares the motion that follows v = 0 above the seat; returns the lanes that are at the
+    /// equilibrium to rounding, where the sign of the acceleration means nothing any more.
     template <class Real>
     HOPSCOTCH_DEVICE static mask_of<Real> turn(lane<Real>& lane, const mask_of<Real>& wanted) {
         using plain = primal_of<Real>;
@@ -220,7 +231,8 @@ struct relief_valve {
         const mask_of<Real> balanced = pull == zero;
         const mask_of<Real> up = (pull > zero) | (balanced & (rate > zero));
         lane.rising = select(wanted, select(up, one, zero), lane.rising);
-        // v is of first order in the time, of second where the force vanishes, and one more in s at p = 0
+        // v is of first order in the time, of second where the force vanishes, and one more in s at
+        // p = 0
         const Real empty = select(lane.root == zero, one, zero);
         lane.turn_zeros = select(wanted, select(balanced, Real(2.0), one) + empty, lane.turn_zeros);
         const plain negligible(lane_traits<Real>::rounding * 64.0);
@@ -246,11 +258,13 @@ struct relief_valve {
         lane.turn_zeros = select(wanted, select(held, two, one), lane.turn_zeros);
     }
 
-    /// The impact law, and the end of chatter. Impacts below a speed at which the disc would rise less than
-    /// rounding are summed up: the remaining ones take 2 v / ((1 - e) |a|), during which the pressure rises
-    /// as on the seat; so the disc is put there at once, if the acceleration keeps its sign until then.
+    /// The impact law, and the end of chatter. Impacts below a speed at which the disc would rise
+    /// less than rounding are summed up: the remaining ones take 2 v / ((1 - e) |a|), during which
+    /// the pressure rises as on the seat; so the disc is put there at once, if the acceleration
+    /// keeps its sign until then.
     template <class Real, class Watch>
-    HOPSCOTCH_DEVICE static void hit_seat(lane<Real>& lane, const mask_of<Real>& hits, Watch& watch) {
+    HOPSCOTCH_DEVICE static void hit_seat(lane<Real>& lane, const mask_of<Real>& hits,
+                                          Watch& watch) {
         using plain = primal_of<Real>;
         const Real zero(0.0);
         const Real one(1.0);

@@ -1,6 +1,7 @@
-// The spring-mass runner (SLIP) whose leg is reset to a fixed angle in flight: linear or air spring, gravity
-// acting or neglected in stance. Speed at touchdown is conserved, so that a stride maps one angle.
-// Source: models/slip.md; Ghigliazza, Altendorfer, Holmes, Koditschek, SIAM Review 47 (2005) 519-549.
+// The spring-mass runner (SLIP) whose leg is reset to a fixed angle in flight: linear or air
+// spring, gravity acting or neglected in stance. Speed at touchdown is conserved, so that a stride
+// maps one angle. Source: models/slip.md; Ghigliazza, Altendorfer, Holmes, Koditschek, SIAM Review
+// 47 (2005) 519-549.
 #pragma once
 
 #include "kernels/spring_leg/gravity_free_stance.hpp"
@@ -17,13 +18,19 @@ struct slip {
         {"stiffness", "k, c", "N/m or N m^3", 100.0, positive,
          "linear: k, force k (eta0 - eta); air: c, force c / eta^3"},
         {"gravity", "g", "m/s^2", 9.81, positive, "gravitational acceleration"},
-        {"touchdown_angle", "beta", "rad", 1.25, {0.0, 0x1.921fb54442d18p+0, false, false},
+        {"touchdown_angle",
+         "beta",
+         "rad",
+         1.25,
+         {0.0, 0x1.921fb54442d18p+0, false, false},
          "leg above the horizontal at touchdown, in (0, pi/2)"}};
     enum parameter_index { mass, leg_length, stiffness, gravity, touchdown_angle };
 
     static constexpr column_info touchdown_columns[] = {
         {"speed", "m/s", positive, "v, touchdown speed"},
-        {"angle", "rad", {-0x1.921fb54442d18p+1, 0x1.921fb54442d18p+1},
+        {"angle",
+         "rad",
+         {-0x1.921fb54442d18p+1, 0x1.921fb54442d18p+1},
          "delta, velocity below the horizontal; failing values (delta <= beta - pi/2) are legal"}};
     static constexpr column_info apex_columns[] = {
         {"apex_height", "m", any_finite, "height of the body at the apex"},
@@ -38,10 +45,9 @@ struct slip {
         {"stance_gravity", gravities, "whether gravity acts while the foot is on the ground"}};
     static constexpr extra_info extras[] = {
         {"sweep_angle", "rad", "angle that the leg turned in the last stance"}};
-    static constexpr outcome outcomes[] = {outcome::ok, outcome::no_contact, outcome::ground,
-                                           outcome::energy_deficit, outcome::no_liftoff,
-                                           outcome::stumble,        outcome::reverse,
-                                           outcome::unresolved_event};
+    static constexpr outcome outcomes[] = {
+        outcome::ok,         outcome::no_contact, outcome::ground,  outcome::energy_deficit,
+        outcome::no_liftoff, outcome::stumble,    outcome::reverse, outcome::unresolved_event};
     static constexpr column_info trace_columns[] = {
         {"x", "m", any_finite, "forward of the foothold of the phase"},
         {"y", "m", any_finite, "height"},
@@ -60,7 +66,9 @@ struct slip {
         .trace_columns = trace_columns};
 
     static constexpr int n_variants = 4;
-    static int variant(const variant_query& scene) { return scene.options[0] + 2 * scene.options[1]; }
+    static int variant(const variant_query& scene) {
+        return scene.options[0] + 2 * scene.options[1];
+    }
     static constexpr std::string_view refusal(const double*, const int*) { return {}; }
     template <int Variant>
     static constexpr bool has_air_spring = Variant % 2 == 1;
@@ -104,8 +112,8 @@ struct slip {
         } else {
             lane.stiffness = per_mass * (lane.leg * lane.leg);
         }
-        const mask_of<Real> finite = (lane.speed - lane.speed == zero) & (lane.angle - lane.angle == zero) &
-                                     (fall - fall == zero);
+        const mask_of<Real> finite = (lane.speed - lane.speed == zero) &
+                                     (lane.angle - lane.angle == zero) & (fall - fall == zero);
         const mask_of<Real> valid = finite & (lane.speed > zero);
         const mask_of<Real> low = valid & (fall < zero);
         const mask_of<Real> none = valid & !valid;
@@ -114,7 +122,8 @@ struct slip {
     }
 
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
+                                                Watch& watch) {
         const Real zero(0.0);
         const mask_of<Real> starts = active & (lane.in_stance == zero);
         lane.time = select(starts, lane.time + spring_leg::descent(lane), lane.time);
@@ -123,7 +132,8 @@ struct slip {
             done = step_of_stance<has_air_spring<Variant>>(lane, active, starts, watch);
         } else {
             if constexpr (Watch::is_active) {
-                spring_leg::reporter<has_air_spring<Variant>, Watch>{watch}.gravity_free_stride(lane);
+                spring_leg::reporter<has_air_spring<Variant>, Watch>{watch}.gravity_free_stride(
+                    lane);
             }
             const Real ended = stride_without_gravity<has_air_spring<Variant>>(lane, active);
             const mask_of<Real> completed = active & (ended == zero);
@@ -153,8 +163,9 @@ struct slip {
         extra[0] = lane.sweep;
     }
 
-  private:
-    /// One stride with gravity neglected in stance; returns the outcome's code, 0 while all is well.
+private:
+    /// One stride with gravity neglected in stance; returns the outcome's code, 0 while all is
+    /// well.
     template <bool IsAir, class Real>
     HOPSCOTCH_DEVICE static Real stride_without_gravity(lane<Real>& lane, mask_of<Real> active) {
         using namespace spring_leg;
@@ -193,7 +204,8 @@ struct slip {
         Real ended = select(active & !contact, code_of<Real>(outcome::no_contact), zero);
         ended = select(grounds, code_of<Real>(outcome::ground), ended);
         ended = select(short_of_energy, code_of<Real>(outcome::energy_deficit), ended);
-        ended = select(lifts & !(leaves | short_of_energy), code_of<Real>(outcome::not_finite), ended);
+        ended =
+            select(lifts & !(leaves | short_of_energy), code_of<Real>(outcome::not_finite), ended);
         return ended + book_flight(lane, from, leaves);
     }
 
@@ -202,8 +214,10 @@ struct slip {
 
     /// One integrator step of a stance under gravity, with the flight that follows its lift-off.
     template <bool IsAir, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step_of_stance(lane<Real>& lane, const mask_of<Real>& active,
-                                                          const mask_of<Real>& starts, Watch& watch) {
+    HOPSCOTCH_DEVICE static progress<Real> step_of_stance(lane<Real>& lane,
+                                                          const mask_of<Real>& active,
+                                                          const mask_of<Real>& starts,
+                                                          Watch& watch) {
         using namespace spring_leg;
         const Real zero(0.0);
         const Real one(1.0);

@@ -1,5 +1,5 @@
-// The gap between a ball in flight and a sinusoidal paddle, without cancellation at short times, and its
-// first zero. Source: models/paddle_juggler.md, section 2.
+// The gap between a ball in flight and a sinusoidal paddle, without cancellation at short times,
+// and its first zero. Source: models/paddle_juggler.md, section 2.
 #pragma once
 
 #include "kernels/elementary/elementary.hpp"
@@ -23,7 +23,7 @@ struct ball_gap {
     Real speed;      // U
     Real sine;       // of theta
     Real cosine;
-    Real weight;     // effective gravity on the paddle at launch, 1 - Gamma sin theta
+    Real weight;  // effective gravity on the paddle at launch, 1 - Gamma sin theta
 
     HOPSCOTCH_DEVICE gap_values<Real> at(const Real& t) const {
         const Real one(1.0);
@@ -43,7 +43,8 @@ struct ball_gap {
         const Real rise_rate = select(is_short, -cubic, turn.sin);
         const Real free = t * fma(-(half * gravity), t, speed);
         const Real value = fma(amplitude, fma(sine, rise, cosine * lag), free);
-        const Real rate = fma(amplitude, fma(sine, rise_rate, cosine * verse), fma(-gravity, t, speed));
+        const Real rate =
+            fma(amplitude, fma(sine, rise_rate, cosine * verse), fma(-gravity, t, speed));
         const Real curvature = fma(amplitude, fma(sine, turn.cos, cosine * turn.sin), -one);
         return {value, rate, curvature};
     }
@@ -58,14 +59,15 @@ HOPSCOTCH_DEVICE inline ball_gap<Real> gap_after(const Real& amplitude, const Re
 
 /// The least gap of a near miss, where rounding hides its sign: recomputed in twice the digits.
 template <class Real>
-HOPSCOTCH_DEVICE inline Real precise_gap(const Real& amplitude, const Real& phase, const Real& speed,
-                                         const Real& t) {
+HOPSCOTCH_DEVICE inline Real precise_gap(const Real& amplitude, const Real& phase,
+                                         const Real& speed, const Real& t) {
     if constexpr (binary64_lane<Real>) {
         using wide = double_double<Real>;
         const Real zero(0.0);
         const sine_cosine<wide> start = sin_cos(wide(phase, zero));
         const sine_cosine<wide> turn = sin_cos(wide(t, zero));
-        const wide moved = start.sin * (wide(1.0) - turn.cos) + start.cos * (wide(t, zero) - turn.sin);
+        const wide moved =
+            start.sin * (wide(1.0) - turn.cos) + start.cos * (wide(t, zero) - turn.sin);
         const wide free = wide(speed, zero) - wide(t, zero) * wide(0.5);
         const wide gap = wide(t, zero) * free + wide(amplitude, zero) * moved;
         return gap.high;
@@ -86,13 +88,13 @@ template <class Real>
 struct flight_search {
     ball_gap<Real> gap;
     Real phase;
-    Real convex_from;       // phi_1 = asin(1 / Gamma): the paddle falls faster than the ball from here
-    Real convex_to;         // pi - phi_1
+    Real convex_from;  // phi_1 = asin(1 / Gamma): the paddle falls faster than the ball from here
+    Real convex_to;    // pi - phi_1
     mask_of<Real> has_convex;  // Gamma > 1
-    Real above_from;        // between these times the ball is above the top of the stroke
+    Real above_from;           // between these times the ball is above the top of the stroke
     Real above_to;
-    Real latest;            // contact has happened by then
-    Real lowest_start;      // where Newton's method starts on far pieces
+    Real latest;        // contact has happened by then
+    Real lowest_start;  // where Newton's method starts on far pieces
 };
 
 template <class Real>
@@ -168,7 +170,8 @@ HOPSCOTCH_DEVICE inline Real first_contact(const flight_search<Real>& search,
                 lowest = select(has_minimum, lowest, now.to);
                 end = search.gap.at(lowest);
                 const mask_of<Real> is_close =
-                    has_minimum & (abs(end.value) <= Real(1e-13) * (fma(lowest, lowest, search.gap.amplitude)));
+                    has_minimum &
+                    (abs(end.value) <= Real(1e-13) * (fma(lowest, lowest, search.gap.amplitude)));
                 if (any(is_close)) {
                     const Real precise =
                         precise_gap(search.gap.amplitude, phase, search.gap.speed, lowest);
@@ -184,9 +187,12 @@ HOPSCOTCH_DEVICE inline Real first_contact(const flight_search<Real>& search,
                                                 gap.value * t / fma(gap.rate, t, -gap.value)};
                 };
                 const Real short_flight = (search.gap.speed + search.gap.speed) / search.gap.weight;
-                const Real guess = select(is_first & (short_flight > zero) & (short_flight < now.to),
-                                          short_flight, search.lowest_start);
-                const Real start = select(guess < now.to, guess, select(now.is_convex, (now.from + lowest) * half, now.to));
+                const Real guess =
+                    select(is_first & (short_flight > zero) & (short_flight < now.to), short_flight,
+                           search.lowest_start);
+                const Real start =
+                    select(guess < now.to, guess,
+                           select(now.is_convex, (now.from + lowest) * half, now.to));
                 const Real time = bracketed_root<Real>(fallen, {now.from, lowest}, start, hits);
                 contact = select(hits, time, contact);
                 found = found | hits;

@@ -1,5 +1,5 @@
-// Sustained contact of the passive hopper: the foot rests on the ground and the body oscillates until
-// the spring force reaches 1. Source: models/passive_hopper.md section 2, CPRR Eq (5).
+// Sustained contact of the passive hopper: the foot rests on the ground and the body oscillates
+// until the spring force reaches 1. Source: models/passive_hopper.md section 2, CPRR Eq (5).
 #pragma once
 
 #include "kernels/elementary/arctangent.hpp"
@@ -8,7 +8,8 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET::passive {
 
-/// The body at the beginning of sustained contact: y1 = 1 + eta (eta <= 0 when undamped), y1' = velocity.
+/// The body at the beginning of sustained contact: y1 = 1 + eta (eta <= 0 when undamped), y1' =
+/// velocity.
 template <class Real>
 struct contact_start {
     Real eta;
@@ -24,15 +25,14 @@ HOPSCOTCH_DEVICE inline Real energy_on_ground(const contact_start<Real>& start, 
     return fma(start.eta, bracket, start.velocity * start.velocity);
 }
 
-/// Duration of undamped sustained contact that ends at lift-off speed alpha; no 0/0, no cancellation.
-/// \return dimensionless time; 0 where contact begins and ends at once
+/// Duration of undamped sustained contact that ends at lift-off speed alpha; no 0/0, no
+/// cancellation. \return dimensionless time; 0 where contact begins and ends at once
 template <class Real>
 HOPSCOTCH_DEVICE inline Real contact_duration(const contact_start<Real>& start, Real alpha, Real mu,
                                               Real inverse_mass) {
     const Real frequency = sqrt(mu);
     const mask_of<Real> falls = start.velocity <= Real(0.0);
-    const Real opposite =
-        select(falls, alpha - start.velocity, -(frequency * start.eta));
+    const Real opposite = select(falls, alpha - start.velocity, -(frequency * start.eta));
     const Real adjacent =
         select(falls, -(frequency * (start.eta + (Real(2.0) + Real(2.0) * inverse_mass))),
                start.velocity + alpha);
@@ -44,7 +44,7 @@ template <class Real>
 struct damped_lift_off {
     mask_of<Real> found;  // false: the force never reaches 1 (stuck)
     Real duration;
-    Real speed;           // alpha = y1' at lift-off; y1 = 1 - 2 zeta alpha there
+    Real speed;  // alpha = y1' at lift-off; y1 = 1 - 2 zeta alpha there
 };
 
 /// Motion on the ground about the equilibrium y1 = -1/M: frequency^2 = mu, decay rate zeta mu.
@@ -82,8 +82,8 @@ struct contact_motion {
     }
 };
 
-/// First upward crossing of F = 1. F + 1/M obeys the contact oscillator; its turning points are in closed
-/// form, and it rises monotonically to its first maximum.
+/// First upward crossing of F = 1. F + 1/M obeys the contact oscillator; its turning points are in
+/// closed form, and it rises monotonically to its first maximum.
 ///
 /// \param start   y1 = 1 + eta, y1' = velocity, foot at rest on the ground
 /// \param wanted  lanes in contact
@@ -96,11 +96,11 @@ HOPSCOTCH_DEVICE inline damped_lift_off<Real> lift_off_damped(const contact_star
     using plain = primal_of<Real>;
     const Real decay = damping * mu;
     const Real target = Real(1.0) + inverse_mass;
-    const contact_motion<Real> motion{decay, sqrt(fma(-decay, decay, mu)), mu,
-                                      damping, target + start.eta, start.velocity};
-    const contact_motion<plain> value{primal(motion.decay), primal(motion.frequency),
-                                      primal(mu), primal(damping), primal(motion.height),
-                                      primal(motion.velocity)};
+    const contact_motion<Real> motion{decay,   sqrt(fma(-decay, decay, mu)), mu,
+                                      damping, target + start.eta,           start.velocity};
+    const contact_motion<plain> value{
+        primal(motion.decay), primal(motion.frequency), primal(mu),
+        primal(damping),      primal(motion.height),    primal(motion.velocity)};
     const plain zero(0.0);
     const value_and_slope<plain> force0 = value.force0();
     const plain turn = atan2(value.frequency * force0.slope,

@@ -1,6 +1,7 @@
-// Any flight of the passive hopper in closed form: free starts, rebounds (restitution > 0) and damped
-// springs. State: spring extension s, its rate, gap G = (1 + M) y2 and its rate; G'' = F - 1 with the
-// spring force F = s + 2 zeta s'. Source: models/passive_hopper.md sections 2 and 6, CPRR Eqs (2), (4).
+// Any flight of the passive hopper in closed form: free starts, rebounds (restitution > 0) and
+// damped springs. State: spring extension s, its rate, gap G = (1 + M) y2 and its rate; G'' = F - 1
+// with the spring force F = s + 2 zeta s'. Source: models/passive_hopper.md sections 2 and 6, CPRR
+// Eqs (2), (4).
 #pragma once
 
 #include "kernels/elementary/arctangent.hpp"
@@ -45,7 +46,7 @@ struct oscillator {
                                                                        : 46;
         Real before = value;  // n-th and (n+1)-th derivatives at 0
         Real current = rate;
-        Real power(1.0);      // t^n / n!
+        Real power(1.0);  // t^n / n!
         Real sum(0.0);
         Real rate_sum(0.0);
         for (int n = 1; n < terms; ++n) {
@@ -103,14 +104,14 @@ struct contact_search {
 /// First contact of a flight: G falls through zero, or touches it.
 ///
 /// \param flow      the flight
-/// \param lift_off  lanes with G = G' = 0, F = 1 rising at t = 0 (an inflection that does not count)
-/// \param wanted    lanes to search
-/// \return          time and found; found = false where gravity has not closed the gap within the last
+/// \param lift_off  lanes with G = G' = 0, F = 1 rising at t = 0 (an inflection that does not
+/// count) \param wanted    lanes to search \return          time and found; found = false where
+/// gravity has not closed the gap within the last
 ///                  possible contact time (a non-finite state)
 /// \error           none
-/// The extrema of F are equally spaced; between two of them F = 1 has at most one root, an inflection of
-/// the gap, so that every piece between has curvature of one sign. While the ball is higher than the
-/// spring can reach, whole oscillations are skipped (page, section 6).
+/// The extrema of F are equally spaced; between two of them F = 1 has at most one root, an
+/// inflection of the gap, so that every piece between has curvature of one sign. While the ball is
+/// higher than the spring can reach, whole oscillations are skipped (page, section 6).
 template <bool Damped, class Real>
 HOPSCOTCH_DEVICE inline contact_search<Real> first_contact(const free_flight<Damped, Real>& flow,
                                                            mask_of<Real> lift_off,
@@ -131,9 +132,9 @@ HOPSCOTCH_DEVICE inline contact_search<Real> first_contact(const free_flight<Dam
     const Real rise = flow.rate0 + spring.rate;
     const Real height = flow.gap0 + spring.value;
     const Real above = fma(rise, rise, Real(2.0) * (height - reach));
-    const Real safe_until = rise + sqrt(larger(above, zero));  // above the spring's reach just before
-    const Real last_time =
-        rise + sqrt(fma(rise, rise, Real(2.0) * (height + reach))) + half_period;
+    const Real safe_until =
+        rise + sqrt(larger(above, zero));  // above the spring's reach just before
+    const Real last_time = rise + sqrt(fma(rise, rise, Real(2.0) * (height + reach))) + half_period;
 
     Real segment(0.0);
     Real from(0.0);
@@ -145,8 +146,8 @@ HOPSCOTCH_DEVICE inline contact_search<Real> first_contact(const free_flight<Dam
         const Real to = fma(segment, half_period, first_extremum);
         const Real bend_to = flow.gap_curvature(to);
         const mask_of<Real> convex = bend > zero;
-        const mask_of<Real> changes = searching & ((convex & (bend_to < zero)) |
-                                                   ((bend < zero) & (bend_to > zero)));
+        const mask_of<Real> changes =
+            searching & ((convex & (bend_to < zero)) | ((bend < zero) & (bend_to > zero)));
         Real middle = to;
         if (any(changes)) {
             const Real direction = select(convex, Real(-1.0), one);
@@ -156,9 +157,9 @@ HOPSCOTCH_DEVICE inline contact_search<Real> first_contact(const free_flight<Dam
                 const Real force_rate = there.rate - Real(2.0) * damping * force;
                 return value_and_slope<Real>{direction * (force - one), direction * force_rate};
             };
-            middle = select(changes,
-                            bracketed_root<Real>(rising, {from, to}, (from + to) * Real(0.5), changes),
-                            to);
+            middle = select(
+                changes, bracketed_root<Real>(rising, {from, to}, (from + to) * Real(0.5), changes),
+                to);
         }
         // a rebound from the ground lands near the root of its parabola
         const Real parabola = Real(2.0) * flow.rate0 / (one - force0);
@@ -166,8 +167,10 @@ HOPSCOTCH_DEVICE inline contact_search<Real> first_contact(const free_flight<Dam
         const found_root<Real> first =
             first_root_on_piece<Real>(flow, from, middle, convex, guess, searching);
         const mask_of<Real> go_on = changes & !first.found;
-        const found_root<Real> second = first_root_on_piece<Real>(flow, middle, to, !convex, to, go_on);
-        time = select(searching & first.found, first.time, select(go_on & second.found, second.time, time));
+        const found_root<Real> second =
+            first_root_on_piece<Real>(flow, middle, to, !convex, to, go_on);
+        time = select(searching & first.found, first.time,
+                      select(go_on & second.found, second.time, time));
         const mask_of<Real> now = searching & (first.found | (go_on & second.found));
         found = found | now;
 
@@ -177,7 +180,8 @@ HOPSCOTCH_DEVICE inline contact_search<Real> first_contact(const free_flight<Dam
         from = select(out_of_reach, fma(skipped, half_period, first_extremum), to);
         segment = select(out_of_reach, skipped, segment) + one;
         bend = flow.gap_curvature(from);
-        // beyond 1e16 time no longer advances, beyond 1e154 squares overflow: no search comes to an end
+        // beyond 1e16 time no longer advances, beyond 1e154 squares overflow: no search comes to an
+        // end
         const mask_of<Real> advances = fma(segment, half_period, first_extremum) > from;
         searching = searching & !now & advances & (from <= last_time) & (last_time < Real(1e300));
     }

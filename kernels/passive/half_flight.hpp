@@ -1,7 +1,8 @@
-// Flights of the undamped passive hopper that start from contact: gap and its rate vanish at launch, so
-// half the flight time x solves H(x; eta) = V, whose first root has an O(1) bracket. Written in the
-// distance xi = x - centre from a lossless point (or from 0), which keeps full relative accuracy at the
-// triple root. Source: models/passive_hopper.md sections 3 and 9 (H1, H3), CPRR Eqs (7)-(12).
+// Flights of the undamped passive hopper that start from contact: gap and its rate vanish at
+// launch, so half the flight time x solves H(x; eta) = V, whose first root has an O(1) bracket.
+// Written in the distance xi = x - centre from a lossless point (or from 0), which keeps full
+// relative accuracy at the triple root. Source: models/passive_hopper.md sections 3 and 9 (H1, H3),
+// CPRR Eqs (7)-(12).
 #pragma once
 
 #include "kernels/elementary/constants.hpp"
@@ -61,13 +62,12 @@ HOPSCOTCH_DEVICE inline half_flight_terms<Real> terms_at(const launch<Real>& fro
     const Real q = select(from.centre == Real(0.0), a, fma(-sine, cosine, x));
     const Real p = from.cosine * fma(-(from.centre * x), angle.sin, e);
     const Real r = fma(-from.eta, sine, p);
-    const Real residual =
-        fma(from.centre, a, b) - fma(from.eta * sine, sine, from.offset * q);
+    const Real residual = fma(from.centre, a, b) - fma(from.eta * sine, sine, from.offset * q);
     return {x, sine, cosine, p, q, r, residual};
 }
 
-/// Halley's step towards H = V, with one division: f = residual / q, f' = w / q^2 with w = 2 p r, and
-/// f''/f' = p'/p + r'/r - 2 q'/q.
+/// Halley's step towards H = V, with one division: f = residual / q, f' = w / q^2 with w = 2 p r,
+/// and f''/f' = p'/p + r'/r - 2 q'/q.
 template <class Real>
 HOPSCOTCH_DEVICE inline value_and_step<Real> halley(const launch<Real>& from,
                                                     const half_flight_terms<Real>& at) {
@@ -78,9 +78,9 @@ HOPSCOTCH_DEVICE inline value_and_step<Real> halley(const launch<Real>& from,
     return {at.residual, at.residual * at.q * w / fma(w, w, -(at.residual * bend))};
 }
 
-/// Starting point for a lift-off: the inverse of beta = K xi^3 (1 - ...) next to a lossless point and of
-/// alpha = x/2 ... on the first branch, continued by least-squares polynomials; within 0.3 % everywhere
-/// (asserted by `the_guess_is_within_three_permille`).
+/// Starting point for a lift-off: the inverse of beta = K xi^3 (1 - ...) next to a lossless point
+/// and of alpha = x/2 ... on the first branch, continued by least-squares polynomials; within 0.3 %
+/// everywhere (asserted by `the_guess_is_within_three_permille`).
 template <class Real>
 HOPSCOTCH_DEVICE inline Real lift_off_guess(const launch<Real>& from) {
     const Real centre = select(from.centre == Real(0.0), Real(1.0), from.centre);
@@ -88,7 +88,8 @@ HOPSCOTCH_DEVICE inline Real lift_off_guess(const launch<Real>& from) {
     const Real cubic = Real(2.0 / 3.0) * fma(inverse, inverse, Real(1.0));
     const Real root = rough_cbrt(from.offset / cubic);
     const Real first = inverse * fma(inverse, Real(-0.0124253), Real(0.512853));
-    const Real second = fma(inverse, fma(inverse, Real(0.309018), Real(0.00199093)), Real(0.0594438));
+    const Real second =
+        fma(inverse, fma(inverse, Real(0.309018), Real(0.00199093)), Real(0.0594438));
     const Real rest = fma(root, Real(0.023261), inverse * Real(-0.123963));
     const Real near_point = root * fma(root, fma(root, fma(root, rest, second), first), Real(1.0));
     const Real alpha = from.offset;
@@ -100,7 +101,8 @@ HOPSCOTCH_DEVICE inline Real lift_off_guess(const launch<Real>& from) {
     return select(from.centre == Real(0.0), first_branch, near_point);
 }
 
-/// Index k of the cell (k pi, (k + 1) pi] that holds a speed >= 0; decided with the low part of pi (H5).
+/// Index k of the cell (k pi, (k + 1) pi] that holds a speed >= 0; decided with the low part of pi
+/// (H5).
 template <class Real>
 HOPSCOTCH_DEVICE inline Real cell_of(Real speed) {
     Real k = floor(speed * Real(0.31830988618379069));  // may be off by one, corrected below
@@ -139,8 +141,8 @@ HOPSCOTCH_DEVICE inline bracket<Real> bounce_bracket(const launch<Real>& from) {
     if (any(is_fast)) {
         const Real point = lossless_point(select(is_fast, m, Real(1.0))).high;
         const auto angle = sin_cos(speed);
-        const mask_of<Real> grazes_first = (speed < point) & ((speed * angle.cos) / angle.sin >=
-                                                             Real(1.0) + from.eta);
+        const mask_of<Real> grazes_first =
+            (speed < point) & ((speed * angle.cos) / angle.sin >= Real(1.0) + from.eta);
         const Real left = select(grazes_first, m * pi<Real>(), point);
         const Real right = select(grazes_first, speed, (m + Real(1.0)) * pi<Real>());
         result.low = select(is_fast, left, result.low);
@@ -149,9 +151,10 @@ HOPSCOTCH_DEVICE inline bracket<Real> bounce_bracket(const launch<Real>& from) {
     return result;
 }
 
-/// Starting point for a bounce. Short ones last theta = 2 V + sqrt(4 V^2 + 12 eta); half of it, written
-/// without cancellation for V < 0 (H3), is continued by a least-squares polynomial: within 0.6 % on bounces
-/// sampled at M = 0.1 ... 1000. From V = pi on, the middle of the two ends the root lies between.
+/// Starting point for a bounce. Short ones last theta = 2 V + sqrt(4 V^2 + 12 eta); half of it,
+/// written without cancellation for V < 0 (H3), is continued by a least-squares polynomial: within
+/// 0.6 % on bounces sampled at M = 0.1 ... 1000. From V = pi on, the middle of the two ends the
+/// root lies between.
 template <class Real>
 HOPSCOTCH_DEVICE inline Real bounce_guess(const launch<Real>& from) {
     constexpr double coefficient[6][6] = {
@@ -183,8 +186,8 @@ HOPSCOTCH_DEVICE inline Real bounce_guess(const launch<Real>& from) {
 /// \param k           cell of a lift-off (ignored for bounces)
 /// \param is_bounce   lanes that start from eta > 0
 /// \param wanted      lanes to solve
-/// \return            terms at the first root (guaranteed: the bracket holds exactly one, the first)
-/// \error             none
+/// \return            terms at the first root (guaranteed: the bracket holds exactly one, the
+/// first) \error             none
 template <class Real>
 HOPSCOTCH_DEVICE inline half_flight_terms<Real> first_contact(const launch<Real>& from, Real k,
                                                               mask_of<Real> is_bounce,
@@ -199,9 +202,7 @@ HOPSCOTCH_DEVICE inline half_flight_terms<Real> first_contact(const launch<Real>
         within.high = select(is_bounce, bounce.high, within.high);
         guess = select(is_bounce, bounce_guess(start), guess);
     }
-    const auto rising = [&](const plain& xi) {
-        return halley(start, terms_at(start, xi));
-    };
+    const auto rising = [&](const plain& xi) { return halley(start, terms_at(start, xi)); };
     const plain root = bracketed_root<plain, 3>(rising, within, guess, wanted);
     if constexpr (std::is_same_v<plain, Real>) {
         return terms_at(from, root);

@@ -1,6 +1,7 @@
-// One trajectory of the passive hopper (or juggler: the same numbers in other coordinates), and how its
-// lift-off speed is stored: as a cell index and the distance to that cell's lossless point, so that the
-// cube-root events next to it keep full relative accuracy (models/passive_hopper.md, H1, H2, H5).
+// One trajectory of the passive hopper (or juggler: the same numbers in other coordinates), and how
+// its lift-off speed is stored: as a cell index and the distance to that cell's lossless point, so
+// that the cube-root events next to it keep full relative accuracy (models/passive_hopper.md, H1,
+// H2, H5).
 #pragma once
 
 #include "kernels/passive/half_flight.hpp"
@@ -18,15 +19,16 @@ struct hopper_lane {
     Real damping;
     Real increment;
 
-    // section state: lift-off speed alpha = centre + centre_low + beta, cell k pi < alpha <= (k + 1) pi
+    // section state: lift-off speed alpha = centre + centre_low + beta, cell k pi < alpha <= (k +
+    // 1) pi
     Real cell;
     Real centre;
     Real centre_low;
     Real centre_cosine;
     Real beta;
 
-    // the flight about to be computed: launch from the ground with y1 = 1 + eta, v1 = flight.centre +
-    // flight.offset and gap rate `rebound` (0 unless restitution lets the foot rebound)
+    // the flight about to be computed: launch from the ground with y1 = 1 + eta, v1 = flight.centre
+    // + flight.offset and gap rate `rebound` (0 unless restitution lets the foot rebound)
     launch<Real> flight;
     Real rebound;
 

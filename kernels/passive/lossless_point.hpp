@@ -1,5 +1,6 @@
-// The lossless motions of the passive hopper: alpha*_k = tan alpha*_k, kept as a double and the rest, so
-// that a lift-off speed next to one is known by its distance to it. Used wherever a flight starts.
+// The lossless motions of the passive hopper: alpha*_k = tan alpha*_k, kept as a double and the
+// rest, so that a lift-off speed next to one is known by its distance to it. Used wherever a flight
+// starts.
 #pragma once
 
 #include "kernels/elementary/constants.hpp"
@@ -42,8 +43,8 @@ HOPSCOTCH_DEVICE inline Real lossless_cosine(Real k, Real alpha) {
     return sign / sqrt(fma(alpha, alpha, Real(1.0)));
 }
 
-/// Beyond the table, k >= 64: one Newton step in double-double takes the angle from one to two double
-/// precisions.
+/// Beyond the table, k >= 64: one Newton step in double-double takes the angle from one to two
+/// double precisions.
 template <class Real>
 HOPSCOTCH_DEVICE inline lossless<Real> lossless_by_newton(Real k) {
     using wide = double_double<Real>;
@@ -58,7 +59,8 @@ HOPSCOTCH_DEVICE inline lossless<Real> lossless_by_newton(Real k) {
 /// alpha*_k of CPRR Eq (12), k = 0, 1, 2, ... (alpha*_0 = 0).
 ///
 /// \param k  integral, lane-wise
-/// \error    |high + low - alpha*_k| about rounding^2; low = 0 in the slow arithmetics, whose own precision
+/// \error    |high + low - alpha*_k| about rounding^2; low = 0 in the slow arithmetics, whose own
+/// precision
 ///           is enough
 template <class Real>
 HOPSCOTCH_DEVICE inline lossless<Real> lossless_point(Real k) {

@@ -1,5 +1,5 @@
-// The passive hopper and the passive juggler as models of the engine. One set of equations serves both
-// (CPRR Eq (6)); they differ in the coordinates that users type and read.
+// The passive hopper and the passive juggler as models of the engine. One set of equations serves
+// both (CPRR Eq (6)); they differ in the coordinates that users type and read.
 #pragma once
 
 #include "kernels/passive/return_map.hpp"
@@ -8,18 +8,38 @@
 namespace hopscotch::inline HOPSCOTCH_TARGET::passive {
 
 inline constexpr parameter_info parameters[] = {
-    {"mass_ratio", "M", "1", 1.0, {0.0, unbounded, false, true}, "m2 / m1: foot over body, hand over ball"},
+    {"mass_ratio",
+     "M",
+     "1",
+     1.0,
+     {0.0, unbounded, false, true},
+     "m2 / m1: foot over body, hand over ball"},
     {"restitution", "e", "1", 0.0, {0.0, 1.0}, "restitution of the impact; 0 is plastic"},
-    {"damping_ratio", "zeta", "1", 0.0, {0.0, 1.0, true, false}, "spring damping; force s + 2 zeta s'"},
-    {"speed_increment", "epsilon", "1", 0.0, {-unbounded, unbounded, false, false}, "added to the launch velocity at every hop (Fig. 8)"},
-    {"quadratic_stiffness", "", "1", 0.0, only_zero, "spring force s + q s^2 (needs the integrator: 0 in this version)"},
-    {"cubic_stiffness", "", "1", 0.0, only_zero, "spring force s + c s^3 (needs the integrator: 0 in this version)"},
-    {"gravity_gradient", "", "1", 0.0, only_zero, "height dependence of gravity (needs the integrator: 0 in this version)"},
+    {"damping_ratio",
+     "zeta",
+     "1",
+     0.0,
+     {0.0, 1.0, true, false},
+     "spring damping; force s + 2 zeta s'"},
+    {"speed_increment",
+     "epsilon",
+     "1",
+     0.0,
+     {-unbounded, unbounded, false, false},
+     "added to the launch velocity at every hop (Fig. 8)"},
+    {"quadratic_stiffness", "", "1", 0.0, only_zero,
+     "spring force s + q s^2 (needs the integrator: 0 in this version)"},
+    {"cubic_stiffness", "", "1", 0.0, only_zero,
+     "spring force s + c s^3 (needs the integrator: 0 in this version)"},
+    {"gravity_gradient", "", "1", 0.0, only_zero,
+     "height dependence of gravity (needs the integrator: 0 in this version)"},
 };
 enum parameter_index { mass_ratio, restitution, damping_ratio, speed_increment };
 
 inline constexpr column_info lift_off_columns[] = {
-    {"liftoff_speed", "1", {0.0, unbounded, true, false},
+    {"liftoff_speed",
+     "1",
+     {0.0, unbounded, true, false},
      "alpha, velocity of the body at lift-off from sustained contact"}};
 
 inline constexpr extra_info extras[] = {
@@ -39,13 +59,21 @@ inline int variant_for(const variant_query& scene) {
 template <int Variant>
 struct variant_type;
 template <>
-struct variant_type<0> { using type = plastic_untimed; };
+struct variant_type<0> {
+    using type = plastic_untimed;
+};
 template <>
-struct variant_type<1> { using type = plastic; };
+struct variant_type<1> {
+    using type = plastic;
+};
 template <>
-struct variant_type<2> { using type = elastic; };
+struct variant_type<2> {
+    using type = elastic;
+};
 template <>
-struct variant_type<3> { using type = damped; };
+struct variant_type<3> {
+    using type = damped;
+};
 
 /// A lane with the parameters set and everything else at its neutral value.
 template <class Real>
@@ -113,8 +141,8 @@ HOPSCOTCH_DEVICE inline progress<Real> begin_anywhere(hopper_lane<Real>& lane,
     const mask_of<Real> stays = stands & !departs;
 
     const Real frequency = is_damped ? sqrt(fma(-lane.damping, lane.damping, one)) : one;
-    const free_flight<is_damped, Real> flow{{start.spring, start.spring_rate, lane.damping, frequency},
-                                            start.gap, start.gap_rate};
+    const free_flight<is_damped, Real> flow{
+        {start.spring, start.spring_rate, lane.damping, frequency}, start.gap, start.gap_rate};
     const mask_of<Real> airborne = flies | departs;
     landing<Real> end{zero, start.spring - one,
                       fma(start.gap_rate, lane.inverse_total, start.spring_rate), start.gap_rate};
@@ -126,8 +154,8 @@ HOPSCOTCH_DEVICE inline progress<Real> begin_anywhere(hopper_lane<Real>& lane,
         if constexpr (Watch::is_active) watch.flight(lane, flow, end.duration);
     }
     lane.from_flight = one;
-    lane.energy = energy_on_ground(contact_start<Real>{end.eta, end.velocity}, lane.mu,
-                                   lane.inverse_total);
+    lane.energy =
+        energy_on_ground(contact_start<Real>{end.eta, end.velocity}, lane.mu, lane.inverse_total);
     // y1 and v1 are unchanged by the impact, so this is the energy after it, its rebound left out
     const mask_of<Real> none = valid & !valid;
     progress<Real> result = land<Variant>(lane, end, stays, stays, none, valid & found, watch);
@@ -155,19 +183,22 @@ struct model {
         lane = lane_with(parameter);
         reporter<Coordinates, Watch> report{watch};
         progress<Real> done =
-            section == 0 ? begin_at_lift_off(lane, columns[0])
-                         : begin_anywhere<typename variant_type<Variant>::type>(
-                               lane, Coordinates::template read<Real>(columns, parameter[mass_ratio]),
-                               report);
-        const mask_of<Real> has_numbers = is_finite(lane.inverse_mass) & is_finite(lane.restitution) &
-                                          is_finite(lane.damping) & is_finite(lane.increment);
+            section == 0
+                ? begin_at_lift_off(lane, columns[0])
+                : begin_anywhere<typename variant_type<Variant>::type>(
+                      lane, Coordinates::template read<Real>(columns, parameter[mass_ratio]),
+                      report);
+        const mask_of<Real> has_numbers = is_finite(lane.inverse_mass) &
+                                          is_finite(lane.restitution) & is_finite(lane.damping) &
+                                          is_finite(lane.increment);
         done.returned = done.returned & has_numbers;
         done.ended = select(has_numbers, done.ended, code_of<Real>(outcome::not_finite));
         return done;
     }
 
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
+                                                Watch& watch) {
         reporter<Coordinates, Watch> report{watch};
         return fly_and_land<typename variant_type<Variant>::type>(lane, active, report);
     }
@@ -183,8 +214,8 @@ struct model {
         extra[1] = lane.total_loss;
     }
 
-    /// Label k + 1 of the lossless motion alpha*_k whose trapping set T_k holds the orbit; label 1 is
-    /// "hopping dies", proved below alpha*_1 when nothing adds energy (page, section 4).
+    /// Label k + 1 of the lossless motion alpha*_k whose trapping set T_k holds the orbit; label 1
+    /// is "hopping dies", proved below alpha*_1 when nothing adds energy (page, section 4).
     template <int Variant, class Real>
     HOPSCOTCH_DEVICE static Real certificate(const lane<Real>& lane) {
         const Real one(1.0);
@@ -196,8 +227,8 @@ struct model {
         return select(below_first, one, lane.trapped);
     }
 
-    /// With plastic impacts and no damping T_k decides; with damping every orbit dies; elastic impacts and
-    /// added energy need traps that are found numerically (analysis/labels).
+    /// With plastic impacts and no damping T_k decides; with damping every orbit dies; elastic
+    /// impacts and added energy need traps that are found numerically (analysis/labels).
     static bool certificate_covers(const variant_query& scene) {
         const bool adds_energy = scene.highest[speed_increment] > 0.0;
         const bool all_damped = scene.lowest[damping_ratio] > 0.0;

@@ -1,6 +1,6 @@
-// One flight of the passive hopper and what its landing leads to: a bounce, sustained contact with the
-// next lift-off, or rest. `step` is the unit of work of the ensemble loop.
-// Source: models/passive_hopper.md sections 2-5; CPRR sections 3-6.
+// One flight of the passive hopper and what its landing leads to: a bounce, sustained contact with
+// the next lift-off, or rest. `step` is the unit of work of the ensemble loop. Source:
+// models/passive_hopper.md sections 2-5; CPRR sections 3-6.
 #pragma once
 
 #include "kernels/contract/model.hpp"
@@ -23,9 +23,9 @@ struct damped {  // damping > 0, any restitution
     static constexpr bool is_damped = true, has_rebound = true, is_timed = true;
 };
 
-/// Rebounds slower than this (gap rate), with the spring pressing the foot down, are the end of chatter:
-/// the speed they would still take from the next lift-off is of its third power (page, section 6).
-/// 1.5e-9 in double.
+/// Rebounds slower than this (gap rate), with the spring pressing the foot down, are the end of
+/// chatter: the speed they would still take from the next lift-off is of its third power (page,
+/// section 6). 1.5e-9 in double.
 template <class Real>
 inline constexpr double chatter_speed = 0.1 * lane_traits<Real>::root_rounding;
 
@@ -66,7 +66,8 @@ HOPSCOTCH_DEVICE inline flight_result<Damped, Real> land_from(const free_flight<
     const auto& spring = flow.spring;
     const free_flight<Damped, plain> value{{primal(spring.value), primal(spring.rate),
                                             primal(spring.damping), primal(spring.frequency)},
-                                           primal(flow.gap0), primal(flow.rate0)};
+                                           primal(flow.gap0),
+                                           primal(flow.rate0)};
     const contact_search<plain> contact = first_contact(value, lift_off, wanted);
     const Real time =
         implicit_root(contact.time, flow.gap(Real(contact.time)), value.gap_rate(contact.time));
@@ -81,8 +82,7 @@ HOPSCOTCH_DEVICE inline flight_result<Damped, Real> land_from(const free_flight<
 template <bool Damped, class Real>
 HOPSCOTCH_DEVICE inline free_flight<Damped, Real> rebound_flow(const hopper_lane<Real>& lane) {
     const Real speed = lane.flight.centre + lane.flight.offset;
-    const Real frequency =
-        Damped ? sqrt(fma(-lane.damping, lane.damping, Real(1.0))) : Real(1.0);
+    const Real frequency = Damped ? sqrt(fma(-lane.damping, lane.damping, Real(1.0))) : Real(1.0);
     return {{Real(1.0) + lane.flight.eta, fma(-lane.rebound, lane.inverse_total, speed),
              lane.damping, frequency},
             Real(0.0),
@@ -98,16 +98,17 @@ HOPSCOTCH_DEVICE inline landing<Real> select_landing(mask_of<Real> condition,
             select(condition, yes.gap_rate, no.gap_rate)};
 }
 
-/// A safe lower bound of D_k, the least kappa that lets an orbit leave the branch of alpha*_k downward
-/// (page, section 4): 0.5438 / (alpha*_k + a) with a falling from 1.907. Tested for k = 1 ... 200.
+/// A safe lower bound of D_k, the least kappa that lets an orbit leave the branch of alpha*_k
+/// downward (page, section 4): 0.5438 / (alpha*_k + a) with a falling from 1.907. Tested for k = 1
+/// ... 200.
 template <class Real>
 HOPSCOTCH_DEVICE inline Real least_escaping_kappa(Real centre) {
     return Real(0.5437) / (centre + Real(1.907));
 }
 
-/// D(x) = (alpha^2 - alpha*_k^2) / W falls at least up to this distance from alpha*_k, for every k: an orbit
-/// there that is mapped above alpha*_k proves the same for everything between. Its minimum lies at
-/// 0.721 (k = 1) down to 0.5278 (k -> inf). Tested for k = 1 ... 200.
+/// D(x) = (alpha^2 - alpha*_k^2) / W falls at least up to this distance from alpha*_k, for every k:
+/// an orbit there that is mapped above alpha*_k proves the same for everything between. Its minimum
+/// lies at 0.721 (k = 1) down to 0.5278 (k -> inf). Tested for k = 1 ... 200.
 inline constexpr double falling_part = 0.52;
 
 /// Starts the next flight of the lanes wanted from the ground.
@@ -195,7 +196,8 @@ HOPSCOTCH_DEVICE inline progress<Real> land(hopper_lane<Real>& lane, const landi
         const Real spring_rate = fma(-rebound, lane.inverse_total, velocity);
         const Real pull =
             Variant::is_damped ? fma(Real(2.0) * lane.damping, spring_rate, eta) : eta;
-        const mask_of<Real> silent = rebound <= smaller(-(pull * Real(chatter_speed<Real>)), Real(chatter_speed<Real>));
+        const mask_of<Real> silent =
+            rebound <= smaller(-(pull * Real(chatter_speed<Real>)), Real(chatter_speed<Real>));
         rests = ((rebound == zero) | silent) & (pull <= zero);
     }
     const mask_of<Real> contact = active & ((decided & sustained) | (!decided & rests));
@@ -212,14 +214,16 @@ HOPSCOTCH_DEVICE inline progress<Real> land(hopper_lane<Real>& lane, const landi
     if constexpr (Variant::is_timed) {
         lane.time = select(active, lane.time + end.duration, lane.time);
     }
-    // with restitution only impacts of |v2-| > 1e-8 count (page, section 6); M = infinity: |gap rate|
+    // with restitution only impacts of |v2-| > 1e-8 count (page, section 6); M = infinity: |gap
+    // rate|
     const Real foot_share = select(lane.inverse_total == zero, one, lane.inverse_total);
     const mask_of<Real> counts =
         bounces & (!(lane.restitution > zero) | (-end.gap_rate * foot_share > Real(1e-8)));
     lane.bounces = select(counts, lane.bounces + one, lane.bounces);
 
     Real ended = zero;
-    // decided means contact from the start in a flight start, which proves nothing about its lift-off
+    // decided means contact from the start in a flight start, which proves nothing about its
+    // lift-off
     const mask_of<Real> was_lift_off = decided & !(lane.from_flight > zero);
     const launch<Real> from = lane.flight;
     const Real cell = lane.cell;
@@ -247,10 +251,9 @@ HOPSCOTCH_DEVICE inline progress<Real> land(hopper_lane<Real>& lane, const landi
         ended = select(contact & !returned, code_of<Real>(outcome::stuck), zero);
         if constexpr (!Variant::has_rebound) {
             // at M = infinity nothing is lost and nothing is attracted
-            const mask_of<Real> in_trap =
-                stays & (lane.kappa > zero) &
-                ((lane.kappa <= least_escaping_kappa(from.centre)) |
-                 (old_beta <= Real(falling_part)));
+            const mask_of<Real> in_trap = stays & (lane.kappa > zero) &
+                                          ((lane.kappa <= least_escaping_kappa(from.centre)) |
+                                           (old_beta <= Real(falling_part)));
             lane.trapped = select(returned, select(in_trap, cell + one, zero), lane.trapped);
         }
     }
@@ -265,9 +268,9 @@ template <class Variant, class Real, class Watch>
 HOPSCOTCH_DEVICE inline progress<Real> fly_and_land(hopper_lane<Real>& lane, mask_of<Real> active,
                                                     Watch& watch) {
     const Real zero(0.0);
-    const mask_of<Real> is_bounce =
-        (lane.flight.eta > zero) | ((lane.flight.centre == zero) & (lane.cell > zero)) |
-        (lane.rebound > zero);
+    const mask_of<Real> is_bounce = (lane.flight.eta > zero) |
+                                    ((lane.flight.centre == zero) & (lane.cell > zero)) |
+                                    (lane.rebound > zero);
     // alpha = 0 is the resting state: no flight, no further hop
     const mask_of<Real> at_rest =
         active & !is_bounce & (lane.flight.centre + lane.flight.offset == zero);
@@ -276,9 +279,12 @@ HOPSCOTCH_DEVICE inline progress<Real> fly_and_land(hopper_lane<Real>& lane, mas
     if constexpr (Variant::is_damped) {
         const auto flight =
             land_from(rebound_flow<true>(lane), lane.inverse_total, !is_bounce, flies);
-        if constexpr (Watch::is_active) watch.flight(lane, rebound_flow<true>(lane), flight.end.duration);
-        result = land<Variant>(lane, flight.end, flies & !flies, flies & !flies, flies, flies, watch);
-        result.ended = select(flies & !flight.found, code_of<Real>(outcome::unresolved_event), result.ended);
+        if constexpr (Watch::is_active)
+            watch.flight(lane, rebound_flow<true>(lane), flight.end.duration);
+        result =
+            land<Variant>(lane, flight.end, flies & !flies, flies & !flies, flies, flies, watch);
+        result.ended =
+            select(flies & !flight.found, code_of<Real>(outcome::unresolved_event), result.ended);
         result.returned = result.returned & flight.found;
     } else {
         const mask_of<Real> by_rebound = flies & (lane.rebound > zero);
@@ -298,7 +304,8 @@ HOPSCOTCH_DEVICE inline progress<Real> fly_and_land(hopper_lane<Real>& lane, mas
         mask_of<Real> decided = is_lift_off;
         if constexpr (Variant::has_rebound) decided = is_lift_off & (end.gap_rate == zero);
         result = land<Variant>(lane, end, decided, lane.flight.offset >= zero, flies, flies, watch);
-        result.ended = select(flies & !found, code_of<Real>(outcome::unresolved_event), result.ended);
+        result.ended =
+            select(flies & !found, code_of<Real>(outcome::unresolved_event), result.ended);
         result.returned = result.returned & found;
     }
     result.ended = select(at_rest, code_of<Real>(outcome::rest), result.ended);

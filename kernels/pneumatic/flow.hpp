@@ -1,8 +1,8 @@
-// One integrator step of a pneumatic stance with friction, in the time s with dt = chi ds, where the
-// right-hand side is polynomial and a leg pressed to nothing is no singularity:
+// One integrator step of a pneumatic stance with friction, in the time s with dt = chi ds, where
+// the right-hand side is polynomial and a leg pressed to nothing is no singularity:
 //   chi' = chi v,  depth' = -chi v,  v' = eta - gamma chi v - g chi,  t' = chi.
-// Both the length chi and the depth below lift-off are carried, so that each keeps its relative accuracy.
-// Source: models/raibert_hopper.md section 3; Koditschek, Buehler 1991, (8).
+// Both the length chi and the depth below lift-off are carried, so that each keeps its relative
+// accuracy. Source: models/raibert_hopper.md section 3; Koditschek, Buehler 1991, (8).
 #pragma once
 
 #include "kernels/integrators/first_zero.hpp"
@@ -27,8 +27,10 @@ struct arc_series {
             at.value = at.value - t;
             return at;
         };
-        const Real s = bracketed_root<Real>(rising, {Real(0.0), end}, end * Real(0.5), end > Real(0.0));
-        return {taylor::evaluate(length, s), taylor::evaluate(depth, s), taylor::evaluate(velocity, s)};
+        const Real s =
+            bracketed_root<Real>(rising, {Real(0.0), end}, end * Real(0.5), end > Real(0.0));
+        return {taylor::evaluate(length, s), taylor::evaluate(depth, s),
+                taylor::evaluate(velocity, s)};
     }
 };
 

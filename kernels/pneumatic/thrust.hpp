@@ -1,6 +1,6 @@
-// The thrust phase of the vertical hopper in closed form: constant force against gravity and viscous
-// friction, from rest at the bottom, cut when the leg leaves the ground.
-// Source: models/raibert_hopper.md section 3; Koditschek, Buehler 1991, (8), (10).
+// The thrust phase of the vertical hopper in closed form: constant force against gravity and
+// viscous friction, from rest at the bottom, cut when the leg leaves the ground. Source:
+// models/raibert_hopper.md section 3; Koditschek, Buehler 1991, (8), (10).
 #pragma once
 
 #include "kernels/elementary/elementary.hpp"
@@ -9,8 +9,8 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET::pneumatic {
 
-/// Response to a unit acceleration under friction: velocity (1 - e^{-gamma s}) / gamma and displacement
-/// (s - velocity) / gamma after the time s. No cancellation for small gamma s.
+/// Response to a unit acceleration under friction: velocity (1 - e^{-gamma s}) / gamma and
+/// displacement (s - velocity) / gamma after the time s. No cancellation for small gamma s.
 template <class Real>
 struct unit_push {
     Real velocity, displacement;
@@ -38,7 +38,7 @@ struct thrust_end {
     mask_of<Real> cut;      // at lift-off, before its time
     mask_of<Real> crashes;  // the body reaches the foot (thrust below gravity)
     Real duration, velocity;
-    Real rise;              // displacement
+    Real rise;  // displacement
 };
 
 /// Thrust from rest at the bottom.
@@ -47,12 +47,12 @@ struct thrust_end {
 /// \param height  bottom height
 /// \param net     thrust minus gravity
 /// \param wanted  lanes at the bottom
-/// An end of thrust at the very lift-off is not cut. The time of a cut is found from the square root of the
-/// displacement, which is nearly linear in time however small the depth.
+/// An end of thrust at the very lift-off is not cut. The time of a cut is found from the square
+/// root of the displacement, which is nearly linear in time however small the depth.
 template <class Real>
-HOPSCOTCH_DEVICE inline thrust_end<Real> thrust(const Real& depth, const Real& height, const Real& net,
-                                                const Real& friction, const Real& time,
-                                                const mask_of<Real>& wanted) {
+HOPSCOTCH_DEVICE inline thrust_end<Real> thrust(const Real& depth, const Real& height,
+                                                const Real& net, const Real& friction,
+                                                const Real& time, const mask_of<Real>& wanted) {
     using plain = primal_of<Real>;
     const Real zero(0.0);
     const unit_push<Real> full = push(time, friction);

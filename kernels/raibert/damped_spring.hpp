@@ -1,5 +1,5 @@
-// The damped linear spring of a stance, for any damping: displacement and velocity without cancellation at
-// short times, and the time at which the motion turns. Used by the linear hoppers.
+// The damped linear spring of a stance, for any damping: displacement and velocity without
+// cancellation at short times, and the time at which the motion turns. Used by the linear hoppers.
 #pragma once
 
 #include "kernels/elementary/elementary.hpp"
@@ -17,13 +17,14 @@ struct turning_time {
     Real time;
 };
 
-/// Motion x'' = -2 a x' - pull - eta (x - x0) from x0, where `pull` is minus the spring's acceleration at x0.
+/// Motion x'' = -2 a x' - pull - eta (x - x0) from x0, where `pull` is minus the spring's
+/// acceleration at x0.
 ///
 /// \tparam Oscillates  every lane is underdamped, a^2 < eta: the other cases are not compiled
 template <bool Oscillates, class Real>
 struct damped_spring {
-    Real eta;  // > 0
-    Real a;    // half of the friction, >= 0
+    Real eta;        // > 0
+    Real a;          // half of the friction, >= 0
     Real rate;       // W = sqrt |eta - a^2|
     Real slow_rate;  // overdamped: a - W, without cancellation
     mask_of<Real> oscillates;
@@ -32,7 +33,7 @@ struct damped_spring {
     HOPSCOTCH_DEVICE static damped_spring with(const Real& stiffness, const Real& half_friction) {
         const Real square = fma(-half_friction, half_friction, stiffness);
         const Real rate = sqrt(abs(square));
-        return {stiffness, half_friction, rate, stiffness / (half_friction + rate),
+        return {stiffness,          half_friction,      rate, stiffness / (half_friction + rate),
                 square > Real(0.0), square == Real(0.0)};
     }
 
@@ -48,8 +49,8 @@ struct damped_spring {
         return end;
     }
 
-    /// The next time > 0 at which the velocity is zero. \param v  its sign says where it comes from: with
-    /// `rises` from above zero (v >= 0), else from below.
+    /// The next time > 0 at which the velocity is zero. \param v  its sign says where it comes
+    /// from: with `rises` from above zero (v >= 0), else from below.
     HOPSCOTCH_DEVICE turning_time<Real> turn(const Real& pull, const Real& v, bool rises) const {
         const Real zero(0.0);
         const Real speed = rises ? v : -v;
@@ -72,7 +73,7 @@ struct damped_spring {
     /// Upper bound of the time an overdamped motion needs for slow exponentials to fall by e^-1.
     HOPSCOTCH_DEVICE Real slow_time() const { return Real(1.0) / slow_rate; }
 
-  private:
+private:
     HOPSCOTCH_DEVICE moved_state<Real> far(const Real& t, const Real& pull, const Real& v) const {
         const Real one(1.0);
         const auto circle = sin_cos(rate * t);
@@ -92,8 +93,10 @@ struct damped_spring {
                 fma(v, even, -(fma(a, v, pull) * odd))};
     }
 
-    /// Taylor's series of the velocity by q_{n+2} = -2 a t q_{n+1} / (n + 2) - eta t^2 q_n / ((n + 1)(n + 2)).
-    HOPSCOTCH_DEVICE moved_state<Real> series(const Real& t, const Real& pull, const Real& v) const {
+    /// Taylor's series of the velocity by q_{n+2} = -2 a t q_{n+1} / (n + 2) - eta t^2 q_n / ((n +
+    /// 1)(n + 2)).
+    HOPSCOTCH_DEVICE moved_state<Real> series(const Real& t, const Real& pull,
+                                              const Real& v) const {
         constexpr int terms = lane_traits<Real>::rounding > 0x1p-60    ? 16
                               : lane_traits<Real>::rounding > 0x1p-110 ? 27
                                                                        : 44;
@@ -105,7 +108,8 @@ struct damped_spring {
         Real displacement = fma(now, Real(0.5), before);
         for (int n = 0; n < terms; ++n) {
             const Real second(n + 2.0);
-            const Real next = friction * now / second + stiffness * before / Real((n + 1.0) * (n + 2.0));
+            const Real next =
+                friction * now / second + stiffness * before / Real((n + 1.0) * (n + 2.0));
             velocity = velocity + next;
             displacement = displacement + next / Real(n + 3.0);
             before = now;

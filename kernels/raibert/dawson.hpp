@@ -1,5 +1,5 @@
-// Dawson's integral D(x) = exp(-x^2) times the integral of exp(t^2) from 0 to x: the time a body takes
-// through a stance on an air spring without gravity. Used by the pneumatic hoppers.
+// Dawson's integral D(x) = exp(-x^2) times the integral of exp(t^2) from 0 to x: the time a body
+// takes through a stance on an air spring without gravity. Used by the pneumatic hoppers.
 #pragma once
 
 #include "kernels/elementary/elementary.hpp"
@@ -16,16 +16,18 @@ inline constexpr int dawson_far = lane_traits<Real>::rounding > 0x1p-60    ? 40
 /// 1 / n, rounded once in the precision of Real.
 template <class Real>
 HOPSCOTCH_DEVICE inline Real reciprocal(double n) {
-    if constexpr (lane_traits<Real>::rounding > 0x1p-60) return Real(1.0 / n);
-    else return Real(1.0) / Real(n);
+    if constexpr (lane_traits<Real>::rounding > 0x1p-60)
+        return Real(1.0 / n);
+    else
+        return Real(1.0) / Real(n);
 }
 
 /// D(sqrt(square)) / sqrt(square).
 ///
 /// \param square  >= 0
 /// \error  a few ulp, up to 1e-14 relative at square = 40 (double)
-/// Up to dawson_far the series exp(-q) sum of q^n / (n! (2 n + 1)), all terms positive; each lane's sum stops
-/// changing on its own. Beyond, sum of (2 n - 1)!! / (2 q)^n over 2 q.
+/// Up to dawson_far the series exp(-q) sum of q^n / (n! (2 n + 1)), all terms positive; each lane's
+/// sum stops changing on its own. Beyond, sum of (2 n - 1)!! / (2 q)^n over 2 q.
 template <class Real>
 HOPSCOTCH_DEVICE inline Real dawson_over_root(const Real& square) {
     constexpr int far = dawson_far<Real>;

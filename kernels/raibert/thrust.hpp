@@ -1,5 +1,5 @@
-// Motion under a constant force with viscous friction, from rest: the thrust phase of Raibert's hoppers, and
-// the time it takes to cover a given height where lift-off cuts it short.
+// Motion under a constant force with viscous friction, from rest: the thrust phase of Raibert's
+// hoppers, and the time it takes to cover a given height where lift-off cuts it short.
 #pragma once
 
 #include "kernels/elementary/elementary.hpp"
@@ -45,8 +45,8 @@ HOPSCOTCH_DEVICE inline friction_factors<Real> friction_factors_at(const Real& y
 /// \param friction      gamma >= 0, 1/s
 /// \param acceleration  > 0 in the lanes wanted
 /// \param height        >= 0
-/// Newton's method on the square root of the displacement, which is nearly linear in time; that function
-/// is concave and the start, the time without friction, lies below the root.
+/// Newton's method on the square root of the displacement, which is nearly linear in time; that
+/// function is concave and the start, the time without friction, lies below the root.
 template <class Real>
 HOPSCOTCH_DEVICE inline Real thrust_duration(const Real& friction, const Real& acceleration,
                                              const Real& height, mask_of<Real> wanted) {

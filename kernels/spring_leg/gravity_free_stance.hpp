@@ -1,7 +1,7 @@
-// Stance of a spring-mass runner with gravity neglected while the leg touches the ground: a central force,
-// so that sweep angle and duration follow from the turning point. Closed form for the air spring, a
-// quadrature without end-point singularity for the linear one.
-// Source: models/slip.md section 4; Ghigliazza et al. 2005, (2.10), (2.14)-(2.20).
+// Stance of a spring-mass runner with gravity neglected while the leg touches the ground: a central
+// force, so that sweep angle and duration follow from the turning point. Closed form for the air
+// spring, a quadrature without end-point singularity for the linear one. Source: models/slip.md
+// section 4; Ghigliazza et al. 2005, (2.10), (2.14)-(2.20).
 #pragma once
 
 #include "kernels/elementary/elementary.hpp"
@@ -30,7 +30,8 @@ struct sweep {
 /// \param stiffness  ct = c / (m v^2 eta0^2) > 0
 /// \error  a few ulp. r^2 = 1 - 2 C t + (1 + ct) t^2 along the motion, hence the duration.
 template <class Real>
-HOPSCOTCH_DEVICE inline sweep<Real> air_sweep(const impact_angle<Real>& alpha, const Real& stiffness) {
+HOPSCOTCH_DEVICE inline sweep<Real> air_sweep(const impact_angle<Real>& alpha,
+                                              const Real& stiffness) {
     const Real frequency = sqrt(fma(alpha.sin, alpha.sin, stiffness));
     const Real two(2.0);
     return {two * (alpha.sin / frequency) * atan2(alpha.cos, frequency),
@@ -44,8 +45,8 @@ struct turning_point {
     Real compression;  // z
 };
 
-/// The turning point is the root of z (2 - z) + kt z^2 (1 - z)^2 = C^2, solved for the smaller of z and x;
-/// in x it reads x^2 (1 - kt (1 - x)^2) = s^2.
+/// The turning point is the root of z (2 - z) + kt z^2 (1 - z)^2 = C^2, solved for the smaller of z
+/// and x; in x it reads x^2 (1 - kt (1 - x)^2) = s^2.
 ///
 /// \param wanted  lanes with sin != 0 or kt > 1 (elsewhere the leg collapses) and cos > 0
 template <class Real>
@@ -62,7 +63,8 @@ HOPSCOTCH_DEVICE inline turning_point<Real> shortest_leg(const impact_angle<Real
     const plain kt = primal(stiffness);
     const plain s2 = primal(sine_square);
     const plain c2 = primal(cosine_square);
-    const mask_of<Real> deep = fma(kt, plain(0.0625), plain(0.75)) < c2;  // residual at z = 1/2 below 0
+    const mask_of<Real> deep =
+        fma(kt, plain(0.0625), plain(0.75)) < c2;  // residual at z = 1/2 below 0
     const auto rising = [&](const plain& y) {
         const plain other = one - y;
         const plain product = y * other;
@@ -71,20 +73,21 @@ HOPSCOTCH_DEVICE inline turning_point<Real> shortest_leg(const impact_angle<Real
         const plain rest = fma(-kt * other, other, one);
         const plain low = fma(y * y, rest, -s2);
         const plain low_slope = two * y * fma(kt, product, rest);
-        return value_and_slope<plain>{select(deep, low, shallow), select(deep, low_slope, shallow_slope)};
+        return value_and_slope<plain>{select(deep, low, shallow),
+                                      select(deep, low_slope, shallow_slope)};
     };
     const plain shallow_guess = c2 / (one + sqrt(fma(kt, c2, s2)));
     const plain excess = larger(one - kt, zero) + sqrt(sqrt(s2));
     const plain deep_guess = larger(sqrt(s2 / excess), one - one / sqrt(kt));
-    const plain root = bracketed_root<plain>(rising, {zero, half}, select(deep, deep_guess, shallow_guess),
-                                             wanted);
+    const plain root = bracketed_root<plain>(rising, {zero, half},
+                                             select(deep, deep_guess, shallow_guess), wanted);
 
     const Real at(root);
     const Real other = Real(1.0) - at;
     const Real product = at * other;
-    const Real residual = select(
-        deep, fma(at * at, fma(-stiffness * other, other, Real(1.0)), -sine_square),
-        fma(stiffness * product, product, fma(at, Real(2.0) - at, -cosine_square)));
+    const Real residual =
+        select(deep, fma(at * at, fma(-stiffness * other, other, Real(1.0)), -sine_square),
+               fma(stiffness * product, product, fma(at, Real(2.0) - at, -cosine_square)));
     const Real exact = implicit_root(root, residual, rising(root).slope);
     const Real rest = Real(1.0) - exact;
     return {select(deep, exact, rest), select(deep, rest, exact)};
@@ -95,8 +98,8 @@ HOPSCOTCH_DEVICE inline turning_point<Real> shortest_leg(const impact_angle<Real
 template <class Real>
 struct linear_spring_integrand {
     Real length, compression, sine_square;
-    Real strength;     // kt x^2
-    Real grown_end;    // e^u - 1 at u_end
+    Real strength;   // kt x^2
+    Real grown_end;  // e^u - 1 at u_end
 
     HOPSCOTCH_DEVICE sweep<Real> at(const Real& u) const {
         const Real grown = expm1(u);
@@ -176,14 +179,15 @@ HOPSCOTCH_DEVICE inline sweep<Real> exponential_sum(const linear_spring_integran
 /// \param wanted     lanes with sin != 0 or kt > 1; the others collapse and get NaN
 /// \error  in double about 1e-13 for x >= 0.05 and alpha above 1e-3, see tests/models/test_slip.cpp
 template <class Real>
-HOPSCOTCH_DEVICE inline sweep<Real> linear_sweep(const impact_angle<Real>& alpha, const Real& stiffness,
+HOPSCOTCH_DEVICE inline sweep<Real> linear_sweep(const impact_angle<Real>& alpha,
+                                                 const Real& stiffness,
                                                  const mask_of<Real>& wanted) {
     const turning_point<Real> turn = shortest_leg(alpha, stiffness, wanted);
     const Real two(2.0);
     const Real u_end = two * asinh(sqrt(turn.compression / (two * turn.length)));
-    const linear_spring_integrand<Real> integrand{turn.length, turn.compression,
-                                                  alpha.sin * alpha.sin,
-                                                  stiffness * turn.length * turn.length, expm1(u_end)};
+    const linear_spring_integrand<Real> integrand{
+        turn.length, turn.compression, alpha.sin * alpha.sin, stiffness * turn.length * turn.length,
+        expm1(u_end)};
     sweep<Real> result;
     if constexpr (lane_traits<Real>::rounding > 0x1p-60) {
         result = gauss_sum(integrand, u_end, legendre_16);

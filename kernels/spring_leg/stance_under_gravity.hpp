@@ -1,7 +1,7 @@
-// Stance of a spring-mass runner under gravity, one Taylor step at a time. Units: leg length and touchdown
-// speed. Coordinates about the foothold, the body's velocity, and a function of the leg's length that makes
-// the right-hand side polynomial.
-// Source: models/slip.md sections 2, 5, 10; Ghigliazza et al. 2005, (2.6).
+// Stance of a spring-mass runner under gravity, one Taylor step at a time. Units: leg length and
+// touchdown speed. Coordinates about the foothold, the body's velocity, and a function of the leg's
+// length that makes the right-hand side polynomial. Source: models/slip.md sections 2, 5, 10;
+// Ghigliazza et al. 2005, (2.6).
 #pragma once
 
 #include "kernels/integrators/first_zero.hpp"
@@ -18,9 +18,10 @@ struct stance_series {
     taylor::series<Real> time;    // elapsed since the step's beginning
 };
 
-/// Linear spring in the time s with dt = r ds: x' = r u, u' = kt (1 - r) x, w' = kt (1 - r) y - gt r,
-/// r' = x u + y w. A pass close to the foothold (r -> 0) takes no shorter steps in s. All products of an
-/// order are summed in one loop: independent chains hide the latency of the fused operations.
+/// Linear spring in the time s with dt = r ds: x' = r u, u' = kt (1 - r) x, w' = kt (1 - r) y - gt
+/// r, r' = x u + y w. A pass close to the foothold (r -> 0) takes no shorter steps in s. All
+/// products of an order are summed in one loop: independent chains hide the latency of the fused
+/// operations.
 template <class Real>
 HOPSCOTCH_DEVICE inline void expand_linear(stance_series<Real>& a, const Real& stiffness,
                                            const Real& gravity) {
@@ -105,8 +106,9 @@ struct stance_step {
 /// \param untouched lanes whose lift-off guard is zero at the start because stance begins here
 /// \param closing   rate of the guard there, > 0
 template <class Real>
-HOPSCOTCH_DEVICE inline stance_step<Real> advance(const stance_series<Real>& a, const Real& untouched,
-                                                  const Real& closing, const mask_of<Real>& active) {
+HOPSCOTCH_DEVICE inline stance_step<Real> advance(const stance_series<Real>& a,
+                                                  const Real& untouched, const Real& closing,
+                                                  const mask_of<Real>& active) {
     using plain = primal_of<Real>;
     taylor::step_length<Real> size;
     size.watch(a.x);

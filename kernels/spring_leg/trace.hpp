@@ -1,5 +1,5 @@
-// What `trace` shows of a spring-mass runner: stances, flights and events in metres about the foothold of the
-// phase. Compiled only for a Watch that is active, hence for one lane.
+// What `trace` shows of a spring-mass runner: stances, flights and events in metres about the
+// foothold of the phase. Compiled only for a Watch that is active, hence for one lane.
 #pragma once
 
 #include "kernels/spring_leg/stance_under_gravity.hpp"
@@ -22,8 +22,8 @@ struct reporter {
 
     /// A step of stance that lasted until `s`.
     template <class Real>
-    void stance(const runner<Real>& lane, const stance_series<Real>& a, const Real& s, const Real& start,
-                const Real& duration) {
+    void stance(const runner<Real>& lane, const stance_series<Real>& a, const Real& s,
+                const Real& start, const Real& duration) {
         watch.phase("stance", start, duration * lane.time_unit, [&](Real t, Real* columns) {
             const Real wanted = t / lane.time_unit;
             const auto rising = [&](const Real& x) {
@@ -31,8 +31,9 @@ struct reporter {
                 at.value = at.value - wanted;
                 return at;
             };
-            const Real at = IsAir ? wanted
-                                  : bracketed_root<Real>(rising, {Real(0.0), s}, s * Real(0.5), s > Real(0.0));
+            const Real at =
+                IsAir ? wanted
+                      : bracketed_root<Real>(rising, {Real(0.0), s}, s * Real(0.5), s > Real(0.0));
             columns[0] = taylor::evaluate(a.x, at) * lane.leg;
             columns[1] = taylor::evaluate(a.y, at) * lane.leg;
             columns[2] = taylor::evaluate(a.x_rate, at) * lane.speed;
@@ -82,7 +83,8 @@ struct reporter {
             } else {
                 expand_linear(a, lane.stiffness, Real(0.0));
             }
-            const auto step = advance(a, Real(i == 0 ? 1.0 : 0.0), IsAir ? Real(2.0) * closing : closing, true);
+            const auto step =
+                advance(a, Real(i == 0 ? 1.0 : 0.0), IsAir ? Real(2.0) * closing : closing, true);
             if (step.broken || step.unresolved) return;
             const Real s = step.length_of_step;
             const Real passed = taylor::evaluate(a.time, s);

@@ -1,5 +1,6 @@
-// Labels of one-dimensional maps with negative Schwarzian derivative and one critical orbit that can be
-// attracted: the gain alone decides the attractor (Singer 1978), so its label needs no iteration.
+// Labels of one-dimensional maps with negative Schwarzian derivative and one critical orbit that
+// can be attracted: the gain alone decides the attractor (Singer 1978), so its label needs no
+// iteration.
 #pragma once
 
 #include "kernels/contract/info.hpp"
@@ -14,8 +15,8 @@ struct doubling_cascade {
     double lost_at[n_doublings];
 };
 
-/// Labels: 1 the resting state, 2 the fixed point, 3 period 2, 4 period 4, ..., and the last one for
-/// what lies beyond the doublings listed (long cycles, chaos, windows).
+/// Labels: 1 the resting state, 2 the fixed point, 3 period 2, 4 period 4, ..., and the last one
+/// for what lies beyond the doublings listed (long cycles, chaos, windows).
 inline constexpr int resting_label = 1;
 inline constexpr int last_cascade_label = 2 + n_doublings;
 

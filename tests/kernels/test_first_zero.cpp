@@ -1,4 +1,5 @@
-// The integrator's event search on polynomials whose zeros are known: nothing is missed inside a step.
+// The integrator's event search on polynomials whose zeros are known: nothing is missed inside a
+// step.
 #include "kernels/integrators/first_zero.hpp"
 
 #include "analysis/truth/real50.hpp"

@@ -1,5 +1,5 @@
-// Runs rows of a model through its orbits in any arithmetic, with parameters and options by name: what the
-// model tests share.
+// Runs rows of a model through its orbits in any arithmetic, with parameters and options by name:
+// what the model tests share.
 #pragma once
 
 #include "analysis/orbit/instantiate.hpp"
@@ -19,7 +19,7 @@ enum class arithmetic { plain, wide, mp50 };
 struct model_row {
     std::string section;
     std::vector<std::string> columns;
-    std::vector<std::pair<std::string, std::string>> set;      // parameters
+    std::vector<std::pair<std::string, std::string>> set;  // parameters
     std::vector<std::pair<std::string, std::string>> options;
     std::uint32_t returns = 1;
     bool derivative = false;

@@ -1,4 +1,5 @@
-// The line juggler: published map, its one-parameter form, and the numerically hard cases of its page.
+// The line juggler: published map, its one-parameter form, and the numerically hard cases of its
+// page.
 #include "kernels/models/mirror_line.hpp"
 #include "tests/models/orbit_runner.hpp"
 #include "tests/models/trace_check.hpp"
@@ -20,9 +21,14 @@ orbit_answer juggle(const std::string& apex, const settings& set, std::uint32_t 
 }
 double apex_of(const orbit_answer& answer) { return number(answer.columns[0]); }
 
-/// Restitution 0, gravity 1, kappa1 = 1, kappa0 = 0: then b is the page's y and the target height its a.
+/// Restitution 0, gravity 1, kappa1 = 1, kappa0 = 0: then b is the page's y and the target height
+/// its a.
 settings reduced(const std::string& a) {
-    return {{"restitution", "0"}, {"gravity", "1"}, {"gain_offset", "0"}, {"energy_gain", "1"}, {"target_height", a}};
+    return {{"restitution", "0"},
+            {"gravity", "1"},
+            {"gain_offset", "0"},
+            {"energy_gain", "1"},
+            {"target_height", a}};
 }
 double y_after(const std::string& y, const std::string& a, std::uint32_t returns) {
     return apex_of(juggle(y, reduced(a), returns));
@@ -53,7 +59,8 @@ TEST(MirrorLine, tuned_offset_is_the_default_for_every_restitution) {
     for (const char* alpha : {"0", "0.25", "0.5", "0.9"}) {
         const double tuned = (1.0 - number(alpha)) / (1.0 + number(alpha));
         const auto implicit = juggle("0.4", {{"restitution", alpha}}, 3);
-        const auto given = juggle("0.4", {{"restitution", alpha}, {"gain_offset", print_real(tuned)}}, 3);
+        const auto given =
+            juggle("0.4", {{"restitution", alpha}, {"gain_offset", print_real(tuned)}}, 3);
         EXPECT_NEAR(apex_of(implicit), apex_of(given), 1e-15);
         EXPECT_NEAR(apex_of(juggle("0.5", {{"restitution", alpha}})), 0.5, 1e-16);  // the target
     }
@@ -79,7 +86,8 @@ TEST(MirrorLine, untuned_offset_moves_the_fixed_point) {
 
 TEST(MirrorLine, multiplier_of_the_fixed_point_is_3_minus_2_a) {
     for (const double a : {1.2, 1.5, 1.9, 2.3}) {
-        const auto answer = juggle(print_real(a - 1.0), reduced(print_real(a)), 1, arithmetic::plain, true);
+        const auto answer =
+            juggle(print_real(a - 1.0), reduced(print_real(a)), 1, arithmetic::plain, true);
         EXPECT_NEAR(apex_of(answer), a - 1.0, 1e-15);
         EXPECT_NEAR(number(answer.derivative[0]), 3.0 - 2.0 * a, 4e-15);
     }
@@ -91,7 +99,8 @@ TEST(MirrorLine, period_two_has_product_1_and_sum_a) {
         const double other = y_after("0.9", print_real(a), 20001);
         EXPECT_NEAR(one * other, 1.0, 1e-13);
         EXPECT_NEAR(one + other, a, 1e-13);
-        const auto cycle = juggle(print_real(one), reduced(print_real(a)), 2, arithmetic::plain, true);
+        const auto cycle =
+            juggle(print_real(one), reduced(print_real(a)), 2, arithmetic::plain, true);
         EXPECT_NEAR(number(cycle.derivative[0]), 9.0 - 2.0 * a * a, 1e-12);
     }
 }
@@ -102,7 +111,8 @@ TEST(MirrorLine, superstable_parameters_of_the_page_close_the_critical_orbit) {
         {"1.5", 1}, {"2.1213203", 2}, {"2.2629897", 4}, {"2.2938433", 8}};
     for (const auto& [a, period] : table) {
         const real50 critical = real50(std::string(a)) / real50(3.0);
-        const auto answer = juggle(to_string(critical, 40), reduced(a), period, arithmetic::mp50, true);
+        const auto answer =
+            juggle(to_string(critical, 40), reduced(a), period, arithmetic::mp50, true);
         EXPECT_NEAR(apex_of(answer), to_double(critical), 4e-6) << a;
         EXPECT_NEAR(number(answer.derivative[0]), 0.0, 1e-30) << a;
     }
@@ -141,7 +151,7 @@ TEST(MirrorLine, labels_follow_the_cascade) {
     EXPECT_EQ(label_of("0.5", reduced("2.2361")), 4);
     EXPECT_EQ(label_of("0.5", reduced("2.295")), 5);
     EXPECT_EQ(label_of("0.5", reduced("2.302284")), last_cascade_label);  // a_inf = 2.3022834627
-    EXPECT_EQ(label_of("3.2", reduced("2.1")), 0);  // y > a + 1 escapes
+    EXPECT_EQ(label_of("3.2", reduced("2.1")), 0);                        // y > a + 1 escapes
     EXPECT_EQ(label_of("0", reduced("2.1")), 1);
     EXPECT_EQ(label_of("0.5", reduced("1e-3")), 1);
 }
@@ -166,14 +176,16 @@ TEST(MirrorLine, without_energy_servo_the_gain_alone_decides) {
         return settings{{"restitution", "0.5"}, {"energy_gain", "0"}, {"gain_offset", kappa0}};
     };
     EXPECT_EQ(apex_of(juggle("0.75", set("0.25"), 2)), 0.75 * std::pow(0.875, 4));
-    EXPECT_EQ(label_of("0.75", set("0.25")), 1);           // m0 = 0.875
-    EXPECT_EQ(label_of("0.75", set("0.33333333333333331")), 0);  // neutral
+    EXPECT_EQ(label_of("0.75", set("0.25")), 1);                        // m0 = 0.875
+    EXPECT_EQ(label_of("0.75", set("0.33333333333333331")), 0);         // neutral
     EXPECT_EQ(juggle("0.75", set("0.5"), 2000).end, outcome::escaped);  // m0 = 1.25
 }
 
 TEST(MirrorLine, negative_energy_gain_repels) {
-    // kappa1 = -1: y = -b, a = kappa-term: target 0.5 gives a = -0.5 + 1 (tuned) = 0.5, |y| = 1 - a = 0.5
-    const settings set{{"restitution", "0"}, {"gravity", "1"}, {"energy_gain", "-1"}, {"target_height", "0.5"}};
+    // kappa1 = -1: y = -b, a = kappa-term: target 0.5 gives a = -0.5 + 1 (tuned) = 0.5, |y| = 1 - a
+    // = 0.5
+    const settings set{
+        {"restitution", "0"}, {"gravity", "1"}, {"energy_gain", "-1"}, {"target_height", "0.5"}};
     EXPECT_EQ(label_of("0.49", set), 1);
     EXPECT_EQ(juggle("0.51", set, 2000).end, outcome::escaped);
     EXPECT_LT(apex_of(juggle("0.49", set, 500)), 1e-100);
@@ -196,7 +208,8 @@ TEST(MirrorLine, flags_are_raised_and_the_orbit_goes_on) {
 TEST(MirrorLine, time_is_fall_and_rise_and_impacts_while_falling_are_immediate) {
     // g = 1, b = 2: fall 2 s; a = 2.5: m = 0.5, rise 1 s
     EXPECT_EQ(number(juggle("2", reduced("2.5")).time), 3.0);
-    // a = 1.5: m = -0.5: the ball stays low; the next impact comes at once, at height 0.5 with m = 1
+    // a = 1.5: m = -0.5: the ball stays low; the next impact comes at once, at height 0.5 with m =
+    // 1
     const auto two = juggle("2", reduced("1.5"), 2);
     EXPECT_EQ(number(juggle("2", reduced("1.5")).time), 2.0);
     EXPECT_EQ(number(two.time), 2.0 + 0.0 + 1.0);
@@ -235,8 +248,10 @@ TEST(MirrorLine, derivatives_agree_with_50_digit_differences) {
     const auto exact = juggle("0.3125", set, 3, arithmetic::mp50, true);
     const auto high = juggle(to_string(real50(0.3125) + h, 64), set, 3, arithmetic::mp50);
     const auto low = juggle(to_string(real50(0.3125) - h, 64), set, 3, arithmetic::mp50);
-    const real50 slope = (parse_real<real50>(high.columns[0]) - parse_real<real50>(low.columns[0])) / (h + h);
-    EXPECT_NEAR(number(exact.derivative[0]), to_double(slope), 1e-14 * (1.0 + std::abs(to_double(slope))));
+    const real50 slope =
+        (parse_real<real50>(high.columns[0]) - parse_real<real50>(low.columns[0])) / (h + h);
+    EXPECT_NEAR(number(exact.derivative[0]), to_double(slope),
+                1e-14 * (1.0 + std::abs(to_double(slope))));
 }
 
 TEST(MirrorLine, agrees_with_50_digits) {
@@ -250,13 +265,15 @@ TEST(MirrorLine, agrees_with_50_digits) {
         const double want = apex_of(juggle(apex, set, 1, arithmetic::mp50));
         // m carries a few ulp of terms up to 1 + B < 6
         EXPECT_NEAR(apex_of(juggle(apex, set)), want, 6e-15 * (std::sqrt(want) + want));
-        EXPECT_NEAR(number(juggle(apex, set).time), number(juggle(apex, set, 1, arithmetic::mp50).time), 1e-14);
+        EXPECT_NEAR(number(juggle(apex, set).time),
+                    number(juggle(apex, set, 1, arithmetic::mp50).time), 1e-14);
     }
 }
 
 TEST(MirrorLine, traced_phases_join_without_a_gap) {
     trace_row<model>({"apex", {"0.4"}, {}, {}, 5}, 1e-13);
-    trace_row<model>({"apex", {"2"}, reduced("1.5"), {}, 3}, 1e-13);  // with an impact while falling
+    trace_row<model>({"apex", {"2"}, reduced("1.5"), {}, 3},
+                     1e-13);  // with an impact while falling
 }
 
 TEST(MirrorLine, starts_below_the_ground_are_invalid) {

@@ -1,5 +1,5 @@
-// The ball on the sinusoidal paddle: published stability limits, Shannon's juggler, and the numerically hard
-// cases of its page.
+// The ball on the sinusoidal paddle: published stability limits, Shannon's juggler, and the
+// numerically hard cases of its page.
 #include "kernels/models/paddle_juggler.hpp"
 #include "tests/models/orbit_runner.hpp"
 #include "tests/models/trace_check.hpp"
@@ -44,7 +44,8 @@ double sticks_of(const orbit_answer& answer) { return number(answer.extras[0]); 
 /// Gap by the plain formula of ball and paddle, an independent yardstick for signs.
 double plain_gap(double amplitude, double phase, double speed, double t) {
     const double velocity = speed + amplitude * std::cos(phase);
-    return amplitude * std::sin(phase) + velocity * t - 0.5 * t * t - amplitude * std::sin(phase + t);
+    return amplitude * std::sin(phase) + velocity * t - 0.5 * t * t -
+           amplitude * std::sin(phase + t);
 }
 
 TEST(PaddleJuggler, illustrative_impact_of_the_page) {
@@ -58,8 +59,8 @@ TEST(PaddleJuggler, illustrative_impact_of_the_page) {
 }
 
 TEST(PaddleJuggler, period_one_has_the_published_point_and_multipliers) {
-    const auto answer =
-        paddle{"1.2", "0.5"}.from("0.510163608543305", "2.09439510239320", 1, arithmetic::plain, true);
+    const auto answer = paddle{"1.2", "0.5"}.from("0.510163608543305", "2.09439510239320", 1,
+                                                  arithmetic::plain, true);
     // the input's digits end at 5e-15, times dphase/dU = 2.1
     EXPECT_NEAR(phase_of(answer), 0.510163608543305, 1.1e-14);
     EXPECT_NEAR(speed_of(answer), 2.09439510239320, 2e-14);
@@ -68,7 +69,8 @@ TEST(PaddleJuggler, period_one_has_the_published_point_and_multipliers) {
     const double det = number(answer.derivative[0]) * number(answer.derivative[3]) -
                        number(answer.derivative[1]) * number(answer.derivative[2]);
     EXPECT_NEAR(trace, 2.0 * -0.0342320388882877, 2e-14);
-    EXPECT_NEAR(det, 0.0342320388882877 * 0.0342320388882877 + 0.498826791094414 * 0.498826791094414,
+    EXPECT_NEAR(det,
+                0.0342320388882877 * 0.0342320388882877 + 0.498826791094414 * 0.498826791094414,
                 2e-14);
 }
 
@@ -84,9 +86,11 @@ TEST(PaddleJuggler, equation_1_decides_the_stability_of_period_one) {
         const double amplitude = std::hypot(fall, w);
         const double phase = std::atan2(fall, w);
         const double speed = pi_double - w;
-        const auto answer = with(amplitude, e).from(print_real(phase), print_real(speed), 1,
-                                                    arithmetic::plain, true);
-        if (std::abs(phase_of(answer) - phase) > 1e-9) continue;  // an earlier contact: not admissible
+        const auto answer =
+            with(amplitude, e)
+                .from(print_real(phase), print_real(speed), 1, arithmetic::plain, true);
+        if (std::abs(phase_of(answer) - phase) > 1e-9)
+            continue;  // an earlier contact: not admissible
         const double trace = number(answer.derivative[0]) + number(answer.derivative[3]);
         EXPECT_NEAR(trace, 1.0 + e * e - (1.0 + e) * (1.0 + e) * fall, 1e-12);
         const bool is_stable = std::abs(trace) < 1.0 + e * e && e * e < 1.0;
@@ -102,8 +106,8 @@ TEST(PaddleJuggler, jacobian_is_that_of_section_4) {
         const double e = 0.1 + 0.8 * uniform(bits);
         const double theta = 2.0 * pi_double * uniform(bits);
         const double speed = 1.0 + 5.0 * uniform(bits);
-        const auto answer = with(gamma, e).from(print_real(theta), print_real(speed), 1,
-                                                arithmetic::mp50, true);
+        const auto answer =
+            with(gamma, e).from(print_real(theta), print_real(speed), 1, arithmetic::mp50, true);
         if (sticks_of(answer) > 0.0 || answer.end != outcome::ok) continue;
         const double t = number(answer.time);
         const double d = -speed_of(answer) / e;
@@ -112,19 +116,23 @@ TEST(PaddleJuggler, jacobian_is_that_of_section_4) {
         const double fall = gamma * std::sin(theta + t);
         const double a = gamma * (c2 - c) / d;
         const double b = -t / d;
-        // columns (theta, V) of the page to (theta, U): dV = dU - Gamma sin(theta) dtheta, both ends
+        // columns (theta, V) of the page to (theta, U): dV = dU - Gamma sin(theta) dtheta, both
+        // ends
         const double start = gamma * std::sin(theta);
         const double j11 = 1.0 + a;
         const double j21 = e * a - (1.0 + e) * fall * j11;
         const double j22 = -e + e * b - (1.0 + e) * fall * b;
-        const double scale = 1e-11 * (1.0 + std::abs(1.0 / d)) * (1.0 + gamma * (1.0 + t)) * (1.0 + gamma);
+        const double scale =
+            1e-11 * (1.0 + std::abs(1.0 / d)) * (1.0 + gamma * (1.0 + t)) * (1.0 + gamma);
         EXPECT_NEAR(number(answer.derivative[0]), j11 - b * start, scale);
         EXPECT_NEAR(number(answer.derivative[1]), b, scale);
-        EXPECT_NEAR(number(answer.derivative[2]), j21 + fall * j11 - start * (j22 + fall * b), scale);
+        EXPECT_NEAR(number(answer.derivative[2]), j21 + fall * j11 - start * (j22 + fall * b),
+                    scale);
         EXPECT_NEAR(number(answer.derivative[3]), j22 + fall * b, scale);
         const double det = number(answer.derivative[0]) * number(answer.derivative[3]) -
                            number(answer.derivative[1]) * number(answer.derivative[2]);
-        EXPECT_NEAR(det, e * e * speed / speed_of(answer), scale * (1.0 + speed / speed_of(answer)));
+        EXPECT_NEAR(det, e * e * speed / speed_of(answer),
+                    scale * (1.0 + speed / speed_of(answer)));
     }
 }
 
@@ -141,10 +149,12 @@ TEST(PaddleJuggler, derivatives_agree_with_50_digit_differences) {
         const auto high = moved(h);
         const auto low = moved(-h);
         for (std::size_t row = 0; row < 2; ++row) {
-            const real50 slope = (parse_real<real50>(high.columns[row]) - parse_real<real50>(low.columns[row])) / (h + h);
+            const real50 slope =
+                (parse_real<real50>(high.columns[row]) - parse_real<real50>(low.columns[row])) /
+                (h + h);
             // differences of 50 printed digits over 2e-21 leave 29 digits; truncation is 1e-42
-            EXPECT_NEAR(number(exact.derivative[row * 2 + static_cast<std::size_t>(column)]), to_double(slope),
-                        1e-14 * (1.0 + std::abs(to_double(slope))));
+            EXPECT_NEAR(number(exact.derivative[row * 2 + static_cast<std::size_t>(column)]),
+                        to_double(slope), 1e-14 * (1.0 + std::abs(to_double(slope))));
         }
     }
 }
@@ -157,13 +167,15 @@ TEST(PaddleJuggler, no_contact_is_missed) {
         const double theta = 2.0 * pi_double * uniform(bits);
         const double speed = (2.0 * gamma + 4.0) * uniform(bits);
         const auto answer = with(gamma, 0.5).from(print_real(theta), print_real(speed));
-        if (answer.end != outcome::ok || sticks_of(answer) > 0.0) continue;  // the time holds a ride as well
+        if (answer.end != outcome::ok || sticks_of(answer) > 0.0)
+            continue;  // the time holds a ride as well
         const double t = number(answer.time);
         // rounding of the plain formula: a few ulp of t^2 + Gamma
         const double noise = 1e-14 * (t * t + speed * t + gamma);
         EXPECT_NEAR(plain_gap(gamma, theta, speed, t), 0.0, noise);
         for (int k = 1; k < 3000; ++k) {
-            ASSERT_GT(plain_gap(gamma, theta, speed, t * k / 3000.0), -noise) << gamma << " " << theta << " " << speed;
+            ASSERT_GT(plain_gap(gamma, theta, speed, t * k / 3000.0), -noise)
+                << gamma << " " << theta << " " << speed;
         }
     }
 }
@@ -179,7 +191,8 @@ TEST(PaddleJuggler, agrees_with_50_digits_after_one_impact) {
         const auto truth = p.from(theta, speed, 1, arithmetic::mp50);
         ASSERT_EQ(plain.end, truth.end);
         if (truth.end != outcome::ok) continue;
-        ASSERT_EQ(sticks_of(plain), sticks_of(truth)) << theta << " " << speed << " " << p.amplitude;
+        ASSERT_EQ(sticks_of(plain), sticks_of(truth))
+            << theta << " " << speed << " " << p.amplitude;
         const double t = number(truth.time);
         const double approach = std::max(1e-3, speed_of(truth));
         // gap errors of a few ulp of t^2 + Gamma become phase errors by 1 / approach speed
@@ -248,10 +261,10 @@ int label_of(const paddle& p, const std::string& phase, const std::string& speed
 }
 
 TEST(PaddleJuggler, labels_name_the_stick_cycles) {
-    EXPECT_EQ(label_of({"3.2", "0"}, "1", "0.5"), 2);    // stick 1
-    EXPECT_EQ(label_of({"3.87", "0"}, "0.3", "0"), 3);   // stick 2
-    EXPECT_EQ(label_of({"0.6", "0.8"}, "0.1", "0.2"), 1);    // rest
-    EXPECT_EQ(label_of({"3.5", "0"}, "0.29", "0"), 0);   // bounces for ever: no label
+    EXPECT_EQ(label_of({"3.2", "0"}, "1", "0.5"), 2);      // stick 1
+    EXPECT_EQ(label_of({"3.87", "0"}, "0.3", "0"), 3);     // stick 2
+    EXPECT_EQ(label_of({"0.6", "0.8"}, "0.1", "0.2"), 1);  // rest
+    EXPECT_EQ(label_of({"3.5", "0"}, "0.29", "0"), 0);     // bounces for ever: no label
     label_description text;
     ASSERT_TRUE(model::describe_label(3, text));
     EXPECT_EQ(text.kind, "stick");
@@ -290,7 +303,8 @@ TEST(PaddleJuggler, gamma_0_9_rests_or_bounces_with_period_one) {
     // period 1 every m: V = pi m, Gamma cos theta = pi m / 9
     for (const double m : {1.0, 2.0}) {
         const double w = pi_double * m / 9.0;
-        const auto cycle = p.from(print_real(std::acos(w / 0.9) + 0.01), print_real(pi_double * m - w), 4000);
+        const auto cycle =
+            p.from(print_real(std::acos(w / 0.9) + 0.01), print_real(pi_double * m - w), 4000);
         EXPECT_NEAR(phase_of(cycle), std::acos(w / 0.9), 1e-9);
         EXPECT_NEAR(speed_of(cycle), pi_double * m - w, 1e-9);
     }
@@ -327,8 +341,8 @@ TEST(PaddleJuggler, returns_that_end_at_rest_are_not_counted) {
 TEST(PaddleJuggler, traced_phases_join_without_a_gap) {
     for (const char* amplitude : {"0.8", "1.7", "3.2"}) {
         for (const char* restitution : {"0", "0.5"}) {
-            const std::vector<std::pair<std::string, std::string>> set{{"amplitude", amplitude},
-                                                                       {"restitution", restitution}};
+            const std::vector<std::pair<std::string, std::string>> set{
+                {"amplitude", amplitude}, {"restitution", restitution}};
             const auto answer = run_row<model>({"impact", {"1", "2"}, set, {}, 6});
             if (answer.end == outcome::rest) continue;  // its last contact has no end
             trace_row<model>({"impact", {"1", "2"}, set, {}, 6}, 1e-11);

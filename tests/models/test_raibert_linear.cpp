@@ -1,5 +1,5 @@
-// Raibert's hopper on the linear spring: Figs. 8 and 10, agreement with an integration of the equations and with
-// the simplified model, and the numerically hard cases of its page.
+// Raibert's hopper on the linear spring: Figs. 8 and 10, agreement with an integration of the
+// equations and with the simplified model, and the numerically hard cases of its page.
 #include "kernels/models/raibert_linear.hpp"
 #include "kernels/models/raibert_linear_simple.hpp"
 #include "tests/models/orbit_runner.hpp"
@@ -16,12 +16,14 @@ namespace {
 using model = raibert_linear;
 
 struct hopper {
-    double height = 0.0, eta = 46.5, tau = 41.86, delta = 0.05, gamma = 2.33, g = 10.0, leg = 0.0, rest = 10.0 / 46.5;
+    double height = 0.0, eta = 46.5, tau = 41.86, delta = 0.05, gamma = 2.33, g = 10.0, leg = 0.0,
+           rest = 10.0 / 46.5;
     double thrust_gravity = 10.0;
     bool preloaded = false;
 
-    orbit_answer from(const std::string& section, const std::string& start, std::uint32_t returns = 1,
-                      arithmetic kind = arithmetic::plain, bool derivative = false) const {
+    orbit_answer from(const std::string& section, const std::string& start,
+                      std::uint32_t returns = 1, arithmetic kind = arithmetic::plain,
+                      bool derivative = false) const {
         return run_row<model>({section,
                                {start},
                                {{"liftoff_height", print_real(height)},
@@ -70,10 +72,18 @@ TEST(RaibertLinear, figure_10_hops_between_its_two_starts) {
 TEST(RaibertLinear, figure_9_as_printed_reaches_an_apex_of_0_718) {
     const hopper printed{.gamma = 0.58, .g = 5.0, .rest = 0.1, .thrust_gravity = 5.0};
     const auto apex = [](const hopper& h) {
-        return run_row<model>({"apex", {"0.44"},
-                               {{"liftoff_height", "0"}, {"stiffness", "46.5"}, {"thrust", "41.86"},
-                                {"thrust_time", "0.05"}, {"friction", "0.58"}, {"stance_gravity", "5"},
-                                {"flight_gravity", "5"}, {"rest_height", print_real(h.rest)}}, {}, 2000});
+        return run_row<model>({"apex",
+                               {"0.44"},
+                               {{"liftoff_height", "0"},
+                                {"stiffness", "46.5"},
+                                {"thrust", "41.86"},
+                                {"thrust_time", "0.05"},
+                                {"friction", "0.58"},
+                                {"stance_gravity", "5"},
+                                {"flight_gravity", "5"},
+                                {"rest_height", print_real(h.rest)}},
+                               {},
+                               2000});
     };
     EXPECT_NEAR(state_of(apex(printed)), 0.718, 1e-3);
     EXPECT_NEAR(state_of(apex({.rest = 5.0 / 46.5})), 0.730, 1e-3);
@@ -83,20 +93,30 @@ TEST(RaibertLinear, reduces_to_the_simplified_model) {
     // chi_l = 0, chi_0 = g / eta, no gravity in thrust: eta = w^2 (1 + b^2), gamma = 2 w b
     const double w = 10.0;
     const double b = 0.25;
-    const hopper h{.eta = w * w * (1.0 + b * b), .tau = 10.0, .delta = 0.1, .gamma = 2.0 * w * b,
-                   .rest = 10.0 / (w * w * (1.0 + b * b)), .thrust_gravity = 0.0};
+    const hopper h{.eta = w * w * (1.0 + b * b),
+                   .tau = 10.0,
+                   .delta = 0.1,
+                   .gamma = 2.0 * w * b,
+                   .rest = 10.0 / (w * w * (1.0 + b * b)),
+                   .thrust_gravity = 0.0};
     for (const char* start : {"0.2", "0.55", "0.7", "2"}) {
         const auto full = h.from("touchdown", start, 3);
         const auto simple = run_row<raibert_linear_simple>(
-            {"touchdown", {start}, {{"frequency", "10"}, {"damping", "0.25"}, {"thrust", "10"}, {"thrust_time", "0.1"}}, {}, 3});
-        EXPECT_NEAR(state_of(full), state_of(simple), 2e-15) << start;  // eta chi_0 - g rounds to 1e-15
+            {"touchdown",
+             {start},
+             {{"frequency", "10"}, {"damping", "0.25"}, {"thrust", "10"}, {"thrust_time", "0.1"}},
+             {},
+             3});
+        EXPECT_NEAR(state_of(full), state_of(simple), 2e-15)
+            << start;  // eta chi_0 - g rounds to 1e-15
         EXPECT_NEAR(number(full.time), number(simple.time), 4e-15) << start;
         EXPECT_EQ(cut_of(full), cut_of(simple));
         EXPECT_EQ(full.events, simple.events);
     }
 }
 
-/// One hop from touchdown by Runge-Kutta 4; returns the next touchdown speed, or -1 without lift-off.
+/// One hop from touchdown by Runge-Kutta 4; returns the next touchdown speed, or -1 without
+/// lift-off.
 struct integrated {
     double speed = -1.0, time = 0.0;
 };
@@ -149,11 +169,22 @@ integrated integrate(const hopper& h, double touchdown) {
 
 TEST(RaibertLinear, hops_agree_with_an_integration_of_the_equations) {
     const std::vector<hopper> hoppers{
-        figure_8, figure_10,
+        figure_8,
+        figure_10,
         {.delta = 0.2, .gamma = 0.0, .leg = 0.2},
         {.height = 0.5, .eta = 120.0, .delta = 0.0, .gamma = 1.0, .rest = 0.55, .preloaded = true},
-        {.height = 0.5, .eta = 46.5, .tau = 80.0, .delta = 0.1, .gamma = 15.0, .rest = 1.2},  // overdamped
-        {.height = 0.5, .eta = 64.0, .tau = 90.0, .delta = 0.05, .gamma = 16.0, .rest = 1.2}};  // critical
+        {.height = 0.5,
+         .eta = 46.5,
+         .tau = 80.0,
+         .delta = 0.1,
+         .gamma = 15.0,
+         .rest = 1.2},  // overdamped
+        {.height = 0.5,
+         .eta = 64.0,
+         .tau = 90.0,
+         .delta = 0.05,
+         .gamma = 16.0,
+         .rest = 1.2}};  // critical
     for (const hopper& h : hoppers) {
         for (const double speed : {0.4, 1.5, 4.0}) {
             const auto answer = h.from("touchdown", print_real(speed));
@@ -242,7 +273,8 @@ TEST(RaibertLinear, weak_thrusts_end_without_lift_off) {
     // a thrust below gravity lets the body sink first; the spring may still throw it
     const hopper weak{.tau = 8.0, .delta = 0.05, .gamma = 0.0};
     const auto thrown = weak.from("touchdown", "2");
-    // z = chi: the fall by X = -(g - tau) delta^2 / 2 with speed A delta raises the oscillator's energy
+    // z = chi: the fall by X = -(g - tau) delta^2 / 2 with speed A delta raises the oscillator's
+    // energy
     const double bottom = -2.0 / std::sqrt(46.5);
     const double x = bottom - 0.0025;
     const double v = -0.1;
@@ -275,9 +307,13 @@ TEST(RaibertLinear, agrees_with_50_digits) {
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     int compared = 0;
     for (int i = 0; i < 240; ++i) {
-        hopper h{.height = 0.5, .eta = 20.0 + 80.0 * uniform(bits), .tau = 15.0 + 60.0 * uniform(bits),
-                 .delta = 0.1 * uniform(bits), .gamma = 25.0 * uniform(bits) * uniform(bits),
-                 .leg = 0.3 * uniform(bits), .rest = 0.55 + 0.8 * uniform(bits)};
+        hopper h{.height = 0.5,
+                 .eta = 20.0 + 80.0 * uniform(bits),
+                 .tau = 15.0 + 60.0 * uniform(bits),
+                 .delta = 0.1 * uniform(bits),
+                 .gamma = 25.0 * uniform(bits) * uniform(bits),
+                 .leg = 0.3 * uniform(bits),
+                 .rest = 0.55 + 0.8 * uniform(bits)};
         h.preloaded = i % 2 == 1;
         const std::string start = print_real(5.0 * uniform(bits));
         const auto plain = h.from("touchdown", start);
@@ -292,7 +328,9 @@ TEST(RaibertLinear, agrees_with_50_digits) {
         const double worst = 1.0 + std::pow((number(start) + h.tau * 0.3) / want, 2.0);
         EXPECT_NEAR(state_of(plain) / want, 1.0, 1e-14 * worst) << i;
         EXPECT_NEAR(number(plain.time) / number(truth.time), 1.0, 1e-14 * worst) << i;
-        const real50 error = parse_real<real50>(wide.columns[0]) / parse_real<real50>(truth.columns[0]) - real50(1.0);
+        const real50 error =
+            parse_real<real50>(wide.columns[0]) / parse_real<real50>(truth.columns[0]) -
+            real50(1.0);
         EXPECT_LT(to_double(abs(error)), 1e-27 * worst) << i;
     }
     EXPECT_GT(compared, 100);
@@ -300,26 +338,35 @@ TEST(RaibertLinear, agrees_with_50_digits) {
 
 TEST(RaibertLinear, derivatives_agree_with_50_digit_differences) {
     const real50 h(0x1p-70);
-    const std::vector<hopper> hoppers{figure_8, figure_10, {.delta = 0.4, .gamma = 0.0},
-                                      {.height = 0.5, .tau = 80.0, .delta = 0.1, .gamma = 15.0, .rest = 1.2}};
+    const std::vector<hopper> hoppers{
+        figure_8,
+        figure_10,
+        {.delta = 0.4, .gamma = 0.0},
+        {.height = 0.5, .tau = 80.0, .delta = 0.1, .gamma = 15.0, .rest = 1.2}};
     for (const hopper& hop : hoppers) {
         for (const char* section : {"touchdown", "apex"}) {
             const double start = 1.25;
             const auto exact = hop.from(section, print_real(start), 2, arithmetic::mp50, true);
             const auto plain = hop.from(section, print_real(start), 2, arithmetic::plain, true);
             if (exact.end != outcome::ok) continue;
-            const auto high = hop.from(section, to_string(real50(start) + h, 64), 2, arithmetic::mp50);
-            const auto low = hop.from(section, to_string(real50(start) - h, 64), 2, arithmetic::mp50);
+            const auto high =
+                hop.from(section, to_string(real50(start) + h, 64), 2, arithmetic::mp50);
+            const auto low =
+                hop.from(section, to_string(real50(start) - h, 64), 2, arithmetic::mp50);
             const double slope = to_double(
-                (parse_real<real50>(high.columns[0]) - parse_real<real50>(low.columns[0])) / (h + h));
-            EXPECT_NEAR(number(exact.derivative[0]), slope, 1e-13 * (1.0 + std::abs(slope))) << section;
-            EXPECT_NEAR(number(plain.derivative[0]), slope, 1e-11 * (1.0 + std::abs(slope))) << section;
+                (parse_real<real50>(high.columns[0]) - parse_real<real50>(low.columns[0])) /
+                (h + h));
+            EXPECT_NEAR(number(exact.derivative[0]), slope, 1e-13 * (1.0 + std::abs(slope)))
+                << section;
+            EXPECT_NEAR(number(plain.derivative[0]), slope, 1e-11 * (1.0 + std::abs(slope)))
+                << section;
         }
     }
 }
 
 TEST(RaibertLinear, thrust_gravity_follows_stance_gravity_where_not_given) {
-    const std::vector<std::pair<std::string, std::string>> set{{"stance_gravity", "7"}, {"rest_height", "1"}};
+    const std::vector<std::pair<std::string, std::string>> set{{"stance_gravity", "7"},
+                                                               {"rest_height", "1"}};
     auto given = set;
     given.emplace_back("thrust_gravity", "7");
     const auto a = run_row<model>({"touchdown", {"2"}, set, {}, 2});
@@ -332,9 +379,14 @@ TEST(RaibertLinear, traced_phases_join_without_a_gap) {
              {"touchdown", "2"}, {"apex", "0.9"}, {"bottom", "0.3"}}) {
         for (const char* spring : {"same", "preloaded"}) {
             for (const char* delta : {"0", "0.05", "0.4"}) {
-                const model_row row{section, {start},
-                                    {{"rest_height", "1"}, {"thrust_time", delta}, {"leg_mass_ratio", "0.125"}, {"thrust", "60"}},
-                                    {{"spring_after_thrust", spring}}, 3};
+                const model_row row{section,
+                                    {start},
+                                    {{"rest_height", "1"},
+                                     {"thrust_time", delta},
+                                     {"leg_mass_ratio", "0.125"},
+                                     {"thrust", "60"}},
+                                    {{"spring_after_thrust", spring}},
+                                    3};
                 trace_row<model>(row, 1e-12);
             }
         }

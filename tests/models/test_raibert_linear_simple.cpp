@@ -1,5 +1,5 @@
-// Raibert's hopper on the simplified linear spring: Eq (17) in its valid form, the cut thrust beyond it,
-// Theorem 2, and the numerically hard cases of the page.
+// Raibert's hopper on the simplified linear spring: Eq (17) in its valid form, the cut thrust
+// beyond it, Theorem 2, and the numerically hard cases of the page.
 #include "kernels/models/raibert_linear_simple.hpp"
 #include "tests/models/orbit_runner.hpp"
 #include "tests/models/trace_check.hpp"
@@ -16,8 +16,9 @@ using model = raibert_linear_simple;
 
 struct hopper {
     double w = 20.0, b = 0.2, tau = 1.0, delta = 0.01;
-    orbit_answer from(const std::string& section, const std::string& start, std::uint32_t returns = 1,
-                      arithmetic kind = arithmetic::plain, bool derivative = false) const {
+    orbit_answer from(const std::string& section, const std::string& start,
+                      std::uint32_t returns = 1, arithmetic kind = arithmetic::plain,
+                      bool derivative = false) const {
         return run_row<model>({section,
                                {start},
                                {{"frequency", print_real(w)},
@@ -58,7 +59,8 @@ TEST(RaibertLinearSimple, figure_2_has_the_reproduced_fixed_point) {
     EXPECT_NEAR(h.bound(), 0.716034, 1e-6);
     EXPECT_NEAR(h.psi() * h.psi(), 8.2824e-6, 1e-10);
     for (const char* start : {"1e-5", "4e-5", "1e-3", "1"}) {
-        EXPECT_NEAR(state_of(h.from("bottom", start, 60)), 4.76713e-5, 1e-10);  // the page's six digits
+        EXPECT_NEAR(state_of(h.from("bottom", start, 60)), 4.76713e-5,
+                    1e-10);  // the page's six digits
     }
     const auto answer = h.from("bottom", "4.76713e-5", 1, arithmetic::plain, true);
     EXPECT_NEAR(number(answer.derivative[0]), 0.140806, 2e-6);
@@ -76,8 +78,8 @@ TEST(RaibertLinearSimple, fixed_point_obeys_its_equation_in_all_sections) {
     // multiplier sin^2 p (cot p - b) (cot p + rho), the same in every coordinate
     const double cot = 1.0 / std::tan(p);
     const double want = std::sin(p) * std::sin(p) * (cot - h.b) * (cot + h.rho());
-    for (const auto& [section, start] :
-         std::vector<std::pair<std::string, double>>{{"phase", p}, {"bottom", r * r}, {"touchdown", r / ratio}}) {
+    for (const auto& [section, start] : std::vector<std::pair<std::string, double>>{
+             {"phase", p}, {"bottom", r * r}, {"touchdown", r / ratio}}) {
         const auto answer = h.from(section, print_real(start), 1, arithmetic::plain, true);
         EXPECT_NEAR(number(answer.derivative[0]), want, 1e-12) << section;
     }
@@ -209,8 +211,8 @@ TEST(RaibertLinearSimple, agrees_with_50_digits) {
     std::mt19937_64 bits(8);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     for (int i = 0; i < 150; ++i) {
-        const hopper h{5.0 + 25.0 * uniform(bits), 0.02 + 0.5 * uniform(bits), 0.5 + 20.0 * uniform(bits),
-                       0.1 * uniform(bits)};
+        const hopper h{5.0 + 25.0 * uniform(bits), 0.02 + 0.5 * uniform(bits),
+                       0.5 + 20.0 * uniform(bits), 0.1 * uniform(bits)};
         const std::string start = print_real(2.0 * uniform(bits));
         const auto plain = h.from("touchdown", start);
         const auto wide = h.from("touchdown", start, 1, arithmetic::wide);
@@ -219,7 +221,9 @@ TEST(RaibertLinearSimple, agrees_with_50_digits) {
         // psi - r cancels at most to psi', so a few ulp of (psi + r) / psi'
         const double scale = 1.0 + (number(start) + h.psi()) / h.psi_rate();
         EXPECT_NEAR(state_of(plain) / state_of(truth), 1.0, 1e-15 * (4.0 + scale));
-        const real50 error = parse_real<real50>(wide.columns[0]) / parse_real<real50>(truth.columns[0]) - real50(1.0);
+        const real50 error =
+            parse_real<real50>(wide.columns[0]) / parse_real<real50>(truth.columns[0]) -
+            real50(1.0);
         EXPECT_LT(to_double(abs(error)), 1e-28 * scale);
     }
 }
@@ -235,15 +239,17 @@ TEST(RaibertLinearSimple, derivatives_agree_with_50_digit_differences) {
         const auto low = hop.from(section, to_string(real50(start) - h, 64), 2, arithmetic::mp50);
         const double slope = to_double(
             (parse_real<real50>(high.columns[0]) - parse_real<real50>(low.columns[0])) / (h + h));
-        EXPECT_NEAR(number(exact.derivative[0]), slope, 1e-14 * (1.0 + std::abs(slope))) << section << start;
-        EXPECT_NEAR(number(plain.derivative[0]), slope, 1e-12 * (1.0 + std::abs(slope))) << section << start;
+        EXPECT_NEAR(number(exact.derivative[0]), slope, 1e-14 * (1.0 + std::abs(slope)))
+            << section << start;
+        EXPECT_NEAR(number(plain.derivative[0]), slope, 1e-12 * (1.0 + std::abs(slope)))
+            << section << start;
     }
 }
 
 TEST(RaibertLinearSimple, certificate_labels_valid_parameters_only) {
     const auto label = [](const hopper& h, const std::string& energy) {
-        const std::vector<std::string> parameters{print_real(h.w), print_real(h.b), print_real(h.tau),
-                                                  print_real(h.delta), "10"};
+        const std::vector<std::string> parameters{print_real(h.w), print_real(h.b),
+                                                  print_real(h.tau), print_real(h.delta), "10"};
         const std::vector<std::string> columns{energy};
         orbit_row row{.variant = 1, .columns = columns, .parameters = parameters, .returns = 100};
         row.decided_by = decision::certificate;
@@ -273,7 +279,8 @@ TEST(RaibertLinearSimple, starts_outside_the_domain_are_invalid) {
     EXPECT_EQ(h.from("bottom", "-1").end, outcome::invalid_start);
     EXPECT_EQ(h.from("touchdown", "-1").end, outcome::invalid_start);
     EXPECT_EQ(h.from("phase", "0").end, outcome::invalid_start);
-    EXPECT_EQ(h.from("phase", "3.1").end, outcome::invalid_start);  // beyond the deepest phase: r < 0
+    EXPECT_EQ(h.from("phase", "3.1").end,
+              outcome::invalid_start);  // beyond the deepest phase: r < 0
     EXPECT_EQ(h.from("bottom", "nan").end, outcome::invalid_start);
 }
 

@@ -1,5 +1,5 @@
-// Raibert's pneumatic hopper against its page (models/raibert_hopper.md): figures, hard cases, closed forms
-// and 50 digits.
+// Raibert's pneumatic hopper against its page (models/raibert_hopper.md): figures, hard cases,
+// closed forms and 50 digits.
 #include "kernels/models/raibert_pneumatic.hpp"
 
 #include "tests/models/orbit_runner.hpp"
@@ -23,7 +23,8 @@ names with(names base, const names& more) {
     return base;
 }
 orbit_answer hop(const std::string& section, const std::string& start, const names& set,
-                 std::uint32_t returns = 1, arithmetic kind = arithmetic::plain, bool derivative = false) {
+                 std::uint32_t returns = 1, arithmetic kind = arithmetic::plain,
+                 bool derivative = false) {
     return run_row<raibert_pneumatic>({section, {start}, set, {}, returns, derivative}, kind);
 }
 double settled(const std::string& section, const std::string& start, const names& set,
@@ -80,7 +81,8 @@ TEST(raibert_pneumatic, is_the_ricker_map_in_the_energy) {
         const orbit_answer answer = hop("touchdown", print_real(speed), simple);
         const double next = number(answer.columns[0]);
         // rounding of the speed and e^{-E} make E + 3 ulp or so
-        EXPECT_NEAR(next * next / (2 * 5.81) / (alpha * energy * std::exp(-energy)), 1.0, 2e-15 * (2 + energy));
+        EXPECT_NEAR(next * next / (2 * 5.81) / (alpha * energy * std::exp(-energy)), 1.0,
+                    2e-15 * (2 + energy));
     }
 }
 
@@ -89,12 +91,14 @@ TEST(raibert_pneumatic, times_compression_by_dawsons_integral) {
     const double speed = std::sqrt(2 * 5.81);
     const names set = with(simple, {{"leg_mass_ratio", "0"}});
     const double hop_time = number(hop("touchdown", print_real(speed), set).time);
-    // decompression with eta2 = tau chi_b = alpha e^{-1} eta1, from rest: E' is the same with v' and eta2
+    // decompression with eta2 = tau chi_b = alpha e^{-1} eta1, from rest: E' is the same with v'
+    // and eta2
     const double alpha = 41.86 * 0.5 / 5.81;
     const double eta2 = alpha * std::exp(-1.0) * 5.81;
     const double next = std::sqrt(2 * eta2);  // E = 1 in both arcs
     const double dawson = 0.53807950691276841914;
-    const double expected = 0.5 * std::sqrt(2 / 5.81) * dawson + 0.5 * std::sqrt(2 / eta2) * dawson + 2 * next / 10;
+    const double expected =
+        0.5 * std::sqrt(2 / 5.81) * dawson + 0.5 * std::sqrt(2 / eta2) * dawson + 2 * next / 10;
     EXPECT_NEAR(hop_time, expected, 1e-14);
 }
 
@@ -117,8 +121,10 @@ TEST(raibert_pneumatic, keeps_relative_accuracy_for_tiny_impacts) {
         for (const char* speed : {"1e-2", "1e-4", "1e-6"}) {
             const names set{{"friction", friction}};
             const double plain = number(hop("touchdown", speed, set).columns[0]);
-            const double truth = number(hop("touchdown", speed, set, 1, arithmetic::mp50).columns[0]);
-            EXPECT_NEAR(plain / truth, 1.0, 2e-14) << speed;  // the page's chi or ln chi: 1e-4 at v = 1e-6
+            const double truth =
+                number(hop("touchdown", speed, set, 1, arithmetic::mp50).columns[0]);
+            EXPECT_NEAR(plain / truth, 1.0, 2e-14)
+                << speed;  // the page's chi or ln chi: 1e-4 at v = 1e-6
         }
     }
 }
@@ -130,8 +136,10 @@ TEST(raibert_pneumatic, falls_beyond_its_fall_edge) {
     EXPECT_EQ(hop("touchdown", "4.7780", {}).end, outcome::no_liftoff);
     EXPECT_EQ(hop("apex", "1.6413", {}).end, outcome::ok);
     EXPECT_EQ(hop("apex", "1.6415", {}).end, outcome::no_liftoff);
-    EXPECT_GT(number(hop("touchdown", "2.055", {}, 1, arithmetic::plain, true).derivative[0]), -1e-2);
-    EXPECT_LT(number(hop("touchdown", "2.065", {}, 1, arithmetic::plain, true).derivative[0]), 1e-2);
+    EXPECT_GT(number(hop("touchdown", "2.055", {}, 1, arithmetic::plain, true).derivative[0]),
+              -1e-2);
+    EXPECT_LT(number(hop("touchdown", "2.065", {}, 1, arithmetic::plain, true).derivative[0]),
+              1e-2);
     EXPECT_GT(number(hop("touchdown", "2.05", {}, 1, arithmetic::plain, true).derivative[0]), 0.0);
     EXPECT_LT(number(hop("touchdown", "2.07", {}, 1, arithmetic::plain, true).derivative[0]), 0.0);
 }
@@ -140,7 +148,8 @@ TEST(raibert_pneumatic, passes_through_the_bubble) {
     // eta1 decreasing: period 1, 2, 1, then all starts fall (about 1.65)
     const auto differs = [](const char* eta) {
         const names set{{"stiffness", eta}};
-        return std::abs(settled("touchdown", "1.2", set, 3000) - settled("touchdown", "1.2", set, 3001));
+        return std::abs(settled("touchdown", "1.2", set, 3000) -
+                        settled("touchdown", "1.2", set, 3001));
     };
     EXPECT_LT(differs("3.1"), 1e-9);
     EXPECT_GT(differs("2.3"), 1e-3);
@@ -150,7 +159,8 @@ TEST(raibert_pneumatic, passes_through_the_bubble) {
 }
 
 TEST(raibert_pneumatic, hops_for_ever_before_the_crisis_and_falls_after_it) {
-    const names set{{"thrust", "41.875"}, {"friction", "1"}, {"thrust_time", "0"}, {"stance_gravity", "1"}};
+    const names set{
+        {"thrust", "41.875"}, {"friction", "1"}, {"thrust_time", "0"}, {"stance_gravity", "1"}};
     EXPECT_EQ(hop("touchdown", "2", with(set, {{"stiffness", "1.2"}}), 1500).end, outcome::ok);
     const orbit_answer after = hop("touchdown", "2", with(set, {{"stiffness", "1.09375"}}), 1500);
     EXPECT_EQ(after.end, outcome::no_liftoff);
@@ -168,7 +178,8 @@ TEST(raibert_pneumatic, treats_thrust_ending_at_lift_off_as_not_cut) {
     EXPECT_EQ(number(exact.extras[0]), 0.0);
     EXPECT_EQ(number(before.extras[0]), 0.0);
     EXPECT_EQ(number(after.extras[0]), 1.0);
-    // v = 4, the next bottom from eta1 ln(chi_l/chi) - g (chi_l - chi) = 8; continuous across the switch
+    // v = 4, the next bottom from eta1 ln(chi_l/chi) - g (chi_l - chi) = 8; continuous across the
+    // switch
     const double bottom = number(exact.columns[0]);
     EXPECT_NEAR(42 * std::log(0.5 / bottom) - 10 * (0.5 - bottom), 8.0, 1e-13);
     EXPECT_NEAR(number(before.columns[0]), bottom, 1e-5);
@@ -177,7 +188,7 @@ TEST(raibert_pneumatic, treats_thrust_ending_at_lift_off_as_not_cut) {
 
 TEST(raibert_pneumatic, sinks_on_an_overdamped_leg) {
     const names set{{"liftoff_height", "1.125"}, {"stiffness", "2.75"}, {"thrust", "51.375"},
-                    {"thrust_time", "0.078125"}, {"friction", "3.75"}, {"stance_gravity", "3"},
+                    {"thrust_time", "0.078125"}, {"friction", "3.75"},  {"stance_gravity", "3"},
                     {"leg_mass_ratio", "0.25"}};
     EXPECT_EQ(hop("touchdown", "0.5", set).end, outcome::sinks);
     EXPECT_EQ(hop("touchdown", "1", set).end, outcome::ok);
@@ -187,9 +198,12 @@ TEST(raibert_pneumatic, reaches_every_other_outcome) {
     for (const char* friction : {"0", "2.33"}) {
         const names set{{"friction", friction}};
         for (const char* thrust : {"10.0625", "10", "5"}) {
-            EXPECT_EQ(hop("touchdown", "2", with(set, {{"thrust", thrust}})).end, outcome::no_liftoff) << thrust;
+            EXPECT_EQ(hop("touchdown", "2", with(set, {{"thrust", thrust}})).end,
+                      outcome::no_liftoff)
+                << thrust;
         }
-        EXPECT_EQ(hop("touchdown", "2", with(set, {{"thrust", "5"}, {"thrust_time", "1"}})).end, outcome::crash);
+        EXPECT_EQ(hop("touchdown", "2", with(set, {{"thrust", "5"}, {"thrust_time", "1"}})).end,
+                  outcome::crash);
         EXPECT_EQ(hop("apex", "0.5", set).end, outcome::invalid_start);
         EXPECT_EQ(hop("bottom", "0.5", set).end, outcome::invalid_start);
         EXPECT_EQ(hop("touchdown", "nan", set).end, outcome::invalid_start);
@@ -250,7 +264,8 @@ TEST(raibert_pneumatic, agrees_with_fifty_digits_on_random_hops) {
         if (plain.end != outcome::ok) continue;
         ++completed;
         const double expected = number(truth.columns[0]);
-        EXPECT_NEAR(number(plain.columns[0]), expected, 1e-13 * (1 + 1 / expected)) << i;  // fall edge
+        EXPECT_NEAR(number(plain.columns[0]), expected, 1e-13 * (1 + 1 / expected))
+            << i;  // fall edge
         EXPECT_NEAR(number(plain.time), number(truth.time), 1e-13 * (1 + 1 / expected)) << i;
     }
     EXPECT_GT(completed, 12);
@@ -262,13 +277,17 @@ TEST(raibert_pneumatic, differentiates_its_map_exactly) {
     for (const char* friction : {"0", "2.33"}) {
         for (const auto& [section, start] : starts) {
             const names set{{"friction", friction}};
-            const double exact = number(hop(section, start, set, 1, arithmetic::plain, true).derivative[0]);
+            const double exact =
+                number(hop(section, start, set, 1, arithmetic::plain, true).derivative[0]);
             const real50 h("1e-20");
             const real50 middle = parse_real<real50>(start);
-            const real50 above(hop(section, print_real(middle + h), set, 1, arithmetic::mp50).columns[0]);
-            const real50 below(hop(section, print_real(middle - h), set, 1, arithmetic::mp50).columns[0]);
+            const real50 above(
+                hop(section, print_real(middle + h), set, 1, arithmetic::mp50).columns[0]);
+            const real50 below(
+                hop(section, print_real(middle - h), set, 1, arithmetic::mp50).columns[0]);
             const double expected = to_double((above - below) / (h + h));
-            EXPECT_NEAR(exact, expected, 1e-11 * (1 + std::abs(expected))) << friction << section << start;
+            EXPECT_NEAR(exact, expected, 1e-11 * (1 + std::abs(expected)))
+                << friction << section << start;
         }
     }
 }

@@ -1,5 +1,5 @@
-// The Ricker map of Koditschek and Buehler's simplified hopper: published figures, Theorem 1, the cascade,
-// and the numerically hard cases of its page.
+// The Ricker map of Koditschek and Buehler's simplified hopper: published figures, Theorem 1, the
+// cascade, and the numerically hard cases of its page.
 #include "kernels/models/raibert_pneumatic_simple.hpp"
 #include "tests/models/orbit_runner.hpp"
 #include "tests/models/trace_check.hpp"
@@ -30,7 +30,8 @@ constexpr double high_energy = 3.288492;
 
 /// Label that the model's certificate gives an orbit with this gain.
 int label_at(const std::string& gain, const std::string& energy = "1.5") {
-    std::vector<std::string> parameters = all_parameters<model>({"energy", {energy}, {{"gain", gain}}, {}});
+    std::vector<std::string> parameters =
+        all_parameters<model>({"energy", {energy}, {{"gain", gain}}, {}});
     const std::vector<std::string> columns{energy};
     orbit_row row{.section = 1, .variant = 1, .columns = columns, .parameters = parameters};
     row.decided_by = decision::certificate;
@@ -89,10 +90,10 @@ TEST(RaibertPneumaticSimple, gain_replaces_thrust_and_leg_mass) {
 TEST(RaibertPneumaticSimple, the_three_sections_show_the_same_orbit) {
     const settings set{{"gain", "6.5"}, {"stiffness", "3"}, {"liftoff_height", "0.75"}};
     const double energy = state_of(hop("energy", "0.875", set, 7));
-    const double bottom = state_of(hop("bottom", to_string(real50(0.75) * exp(real50(-0.875)), 40), set, 7,
-                                       arithmetic::mp50));
-    const double speed = state_of(hop("touchdown", to_string(sqrt(real50(5.25)), 40), set, 7,
-                                      arithmetic::mp50));
+    const double bottom = state_of(
+        hop("bottom", to_string(real50(0.75) * exp(real50(-0.875)), 40), set, 7, arithmetic::mp50));
+    const double speed =
+        state_of(hop("touchdown", to_string(sqrt(real50(5.25)), 40), set, 7, arithmetic::mp50));
     // seven hops amplify rounding by at most 6.5^7 / e^7 = 450
     EXPECT_NEAR(bottom, 0.75 * std::exp(-energy), 1e-12);
     EXPECT_NEAR(speed * speed, 6.0 * energy, 1e-11);
@@ -113,7 +114,8 @@ TEST(RaibertPneumaticSimple, time_of_a_hop_is_the_integral_over_its_phases) {
     const double decompression = chi_b * std::sqrt(2.0 / (41.86 * chi_b)) * integral;
     const double alpha = 41.86 * 0.5 / 5.81;
     const double speed = std::sqrt(2.0 * 5.81 * alpha * energy * std::exp(-energy));
-    const auto answer = hop("touchdown", to_string(sqrt(real50(5.81) * real50(3.0)), 30), figure_11);
+    const auto answer =
+        hop("touchdown", to_string(sqrt(real50(5.81) * real50(3.0)), 30), figure_11);
     EXPECT_NEAR(number(answer.time), compression + decompression + speed / 5.0, 1e-12);
     EXPECT_NEAR(state_of(answer), speed, 1e-14);
     EXPECT_EQ(answer.events, 3u);
@@ -148,7 +150,8 @@ TEST(RaibertPneumaticSimple, gain_100_reaches_tiny_energies_and_comes_back) {
     const double lowest = state_of(hop("energy", "1", {{"gain", "100"}}, 2));
     EXPECT_NEAR(lowest, 3.9e-13, 0.05e-13);  // the page's two digits
     const double later = state_of(hop("energy", "1", {{"gain", "100"}}, 7));
-    EXPECT_NEAR(later / (lowest * 1e10), 1.0, 5e-5);  // five hops of growth by 100 exp(-E), E up to 4e-5
+    EXPECT_NEAR(later / (lowest * 1e10), 1.0,
+                5e-5);  // five hops of growth by 100 exp(-E), E up to 4e-5
 }
 
 TEST(RaibertPneumaticSimple, orbits_survive_energies_below_the_smallest_double) {
@@ -168,7 +171,8 @@ TEST(RaibertPneumaticSimple, orbits_survive_energies_below_the_smallest_double) 
 
 TEST(RaibertPneumaticSimple, superstable_cycles_have_multiplier_zero) {
     // E = 1 is the critical point: what is left is the rounding of alpha exp(-E) - alpha E exp(-E)
-    const auto fixed = hop("energy", "1", {{"gain", "2.718281828459045"}}, 1, arithmetic::plain, true);
+    const auto fixed =
+        hop("energy", "1", {{"gain", "2.718281828459045"}}, 1, arithmetic::plain, true);
     EXPECT_NEAR(number(fixed.derivative[0]), 0.0, 4e-16);
     const auto pair = hop("energy", "1", {{"gain", "9.5489501"}}, 2, arithmetic::plain, true);
     EXPECT_NEAR(state_of(pair), 1.0, 1e-7);  // the gain has eight digits
@@ -193,11 +197,15 @@ TEST(RaibertPneumaticSimple, labelled_periods_are_those_the_critical_orbit_settl
     const std::vector<std::pair<const char*, int>> windows{
         {"5", 1}, {"10", 2}, {"13.5", 4}, {"14.5", 8}, {"14.72", 16}};
     for (const auto& [gain, period] : windows) {
-        const auto at = [&](std::uint32_t n) { return state_of(hop("energy", "1", {{"gain", gain}}, n)); };
+        const auto at = [&](std::uint32_t n) {
+            return state_of(hop("energy", "1", {{"gain", gain}}, n));
+        };
         const double reference = at(20000);
         EXPECT_NEAR(at(20000 + static_cast<std::uint32_t>(period)), reference, 1e-9) << gain;
         if (period > 1) {
-            EXPECT_GT(std::abs(at(20000 + static_cast<std::uint32_t>(period) / 2) - reference), 1e-3) << gain;
+            EXPECT_GT(std::abs(at(20000 + static_cast<std::uint32_t>(period) / 2) - reference),
+                      1e-3)
+                << gain;
         }
         label_description text;
         ASSERT_TRUE(model::describe_label(label_at(gain), text));
@@ -210,14 +218,18 @@ TEST(RaibertPneumaticSimple, derivatives_agree_with_50_digit_differences) {
     for (const char* section : {"bottom", "energy", "touchdown"}) {
         const settings set{{"gain", "8"}};
         const auto exact = hop(section, "0.40625", set, 3, arithmetic::mp50, true);
-        const auto high = hop(section, to_string(real50(0.40625) + h, 60), set, 3, arithmetic::mp50);
+        const auto high =
+            hop(section, to_string(real50(0.40625) + h, 60), set, 3, arithmetic::mp50);
         const auto low = hop(section, to_string(real50(0.40625) - h, 60), set, 3, arithmetic::mp50);
-        const real50 slope = (parse_real<real50>(high.columns[0]) - parse_real<real50>(low.columns[0])) /
-                             (h + h);
+        const real50 slope =
+            (parse_real<real50>(high.columns[0]) - parse_real<real50>(low.columns[0])) / (h + h);
         // truncation h^2 = 1e-36 times a third derivative below 1e5
-        EXPECT_NEAR(to_double(parse_real<real50>(exact.derivative[0]) / slope), 1.0, 1e-15) << section;
+        EXPECT_NEAR(to_double(parse_real<real50>(exact.derivative[0]) / slope), 1.0, 1e-15)
+            << section;
         const auto plain = hop(section, "0.40625", set, 3, arithmetic::plain, true);
-        EXPECT_NEAR(number(plain.derivative[0]), to_double(slope), 1e-13 * (1.0 + std::abs(to_double(slope)))) << section;
+        EXPECT_NEAR(number(plain.derivative[0]), to_double(slope),
+                    1e-13 * (1.0 + std::abs(to_double(slope))))
+            << section;
     }
 }
 
@@ -227,10 +239,12 @@ TEST(RaibertPneumaticSimple, one_hop_is_right_to_a_few_ulp) {
     std::uniform_real_distribution<double> heights(1e-3, 0.5);
     for (int i = 0; i < 200; ++i) {
         const std::string energy = print_real(energies(bits));
-        const double want = number(hop("energy", energy, figure_11, 1, arithmetic::mp50).columns[0]);
+        const double want =
+            number(hop("energy", energy, figure_11, 1, arithmetic::mp50).columns[0]);
         EXPECT_NEAR(state_of(hop("energy", energy, figure_11)), want, 8e-16 * want);
         const std::string height = print_real(heights(bits));
-        const double next = number(hop("bottom", height, figure_11, 1, arithmetic::mp50).columns[0]);
+        const double next =
+            number(hop("bottom", height, figure_11, 1, arithmetic::mp50).columns[0]);
         // an error of one ulp in E moves ln(bottom) by alpha ulp(1) at most
         EXPECT_NEAR(state_of(hop("bottom", height, figure_11)), next, 2e-15 * next);
     }
@@ -257,7 +271,8 @@ TEST(RaibertPneumaticSimple, starts_outside_the_domain_are_invalid) {
 
 TEST(RaibertPneumaticSimple, traced_phases_join_without_a_gap) {
     for (const char* section : {"energy", "touchdown"}) {
-        EXPECT_EQ(trace_row<model>({section, {"1.25"}, {{"leg_mass_ratio", "0.2"}}, {}, 4}, 1e-12), 12);
+        EXPECT_EQ(trace_row<model>({section, {"1.25"}, {{"leg_mass_ratio", "0.2"}}, {}, 4}, 1e-12),
+                  12);
     }
 }
 

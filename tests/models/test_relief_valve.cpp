@@ -1,5 +1,5 @@
-// The impacting relief valve: against Runge-Kutta in the original coordinates, against 50 digits, and
-// against what holds in closed form on its seat.
+// The impacting relief valve: against Runge-Kutta in the original coordinates, against 50 digits,
+// and against what holds in closed form on its seat.
 #include "kernels/models/relief_valve.hpp"
 
 #include "tests/models/orbit_runner.hpp"
@@ -14,7 +14,8 @@ namespace {
 
 using namespace testing_models;
 
-model_row valve_row(double x, double p, double flow, std::uint32_t returns, double restitution = 0.8) {
+model_row valve_row(double x, double p, double flow, std::uint32_t returns,
+                    double restitution = 0.8) {
     return {"maximum",
             {print_real(x), print_real(p)},
             {{"flow_rate", print_real(flow)}, {"restitution", print_real(restitution)}},
@@ -36,7 +37,8 @@ valve_state advanced(const valve_state& s, double h, double flow) {
     const valve_state b = rate(at(s, a, h / 2), flow);
     const valve_state c = rate(at(s, b, h / 2), flow);
     const valve_state d = rate(at(s, c, h), flow);
-    return {s.x + h / 6 * (a.x + 2 * b.x + 2 * c.x + d.x), s.v + h / 6 * (a.v + 2 * b.v + 2 * c.v + d.v),
+    return {s.x + h / 6 * (a.x + 2 * b.x + 2 * c.x + d.x),
+            s.v + h / 6 * (a.v + 2 * b.v + 2 * c.v + d.v),
             s.p + h / 6 * (a.p + 2 * b.p + 2 * c.p + d.p)};
 }
 
@@ -91,10 +93,13 @@ TEST(relief_valve, starts_from_an_empty_chamber) {
     // the benchmark's start (0.2, 0, 0): sqrt p is not differentiable there, the series is
     for (const double flow : {0.2, 3.0, 9.0}) {
         const orbit_answer plain = run_row<relief_valve>(valve_row(0.2, 0.0, flow, 3));
-        const orbit_answer truth = run_row<relief_valve>(valve_row(0.2, 0.0, flow, 3), arithmetic::mp50);
+        const orbit_answer truth =
+            run_row<relief_valve>(valve_row(0.2, 0.0, flow, 3), arithmetic::mp50);
         ASSERT_EQ(plain.end, outcome::ok);
-        EXPECT_NEAR(number(plain.columns[0]), number(truth.columns[0]), 1e-12 * number(truth.columns[0]));
-        EXPECT_NEAR(number(plain.columns[1]), number(truth.columns[1]), 1e-12 * number(truth.columns[1]));
+        EXPECT_NEAR(number(plain.columns[0]), number(truth.columns[0]),
+                    1e-12 * number(truth.columns[0]));
+        EXPECT_NEAR(number(plain.columns[1]), number(truth.columns[1]),
+                    1e-12 * number(truth.columns[1]));
     }
 }
 
@@ -102,8 +107,8 @@ TEST(relief_valve, agrees_with_fifty_digits_on_random_orbits) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int i = 0; i < 12; ++i) {
-        const model_row row =
-            valve_row(0.1 + 6.0 * unit(random), 1.0 + 12.0 * unit(random), 0.3 + 9.0 * unit(random), 3);
+        const model_row row = valve_row(0.1 + 6.0 * unit(random), 1.0 + 12.0 * unit(random),
+                                        0.3 + 9.0 * unit(random), 3);
         const orbit_answer plain = run_row<relief_valve>(row);
         const orbit_answer truth = run_row<relief_valve>(row, arithmetic::mp50);
         ASSERT_EQ(plain.end, truth.end);
@@ -132,7 +137,8 @@ TEST(relief_valve, differentiates_through_impacts) {
         for (std::size_t c = 0; c < 2; ++c) {
             const real50 slope = (real50(above.columns[c]) - real50(below.columns[c])) / (h + h);
             const double expected = to_double(slope);
-            EXPECT_NEAR(number(exact.derivative[2 * c + start]), expected, 1e-10 * (1 + std::abs(expected)));
+            EXPECT_NEAR(number(exact.derivative[2 * c + start]), expected,
+                        1e-10 * (1 + std::abs(expected)));
         }
     }
 }
@@ -145,7 +151,8 @@ TEST(relief_valve, waits_on_its_seat_until_the_pressure_opens_it) {
 }
 
 TEST(relief_valve, ends_chatter_on_its_seat_and_forgets_its_start) {
-    // infinitely many impacts in finite time: the closed valve then opens from one and the same state
+    // infinitely many impacts in finite time: the closed valve then opens from one and the same
+    // state
     const orbit_answer from_seat = run_row<relief_valve>(valve_row(0.0, 5.0, 0.2, 1, 0.3));
     model_row row = valve_row(0.2, 0.0, 0.2, 1, 0.3);
     std::uint32_t first = 0;

@@ -1,5 +1,5 @@
-// An observer for model tests: phases must follow each other in time, and states must join from phase to event
-// to phase.
+// An observer for model tests: phases must follow each other in time, and states must join from
+// phase to event to phase.
 #pragma once
 
 #include "tests/models/orbit_runner.hpp"

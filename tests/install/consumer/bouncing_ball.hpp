@@ -13,17 +13,25 @@ struct bouncing_ball {
         {"speed", "m/s", {0.0, unbounded, true, false}, "upward speed just after a bounce"}};
     static constexpr section_info sections[] = {{"bounce", columns, 0, "just after a bounce"}};
     static constexpr outcome outcomes[] = {outcome::ok};
-    static constexpr model_info info{
-        .name = "bouncing_ball", .title = "Bouncing ball", .reference = "this file",
-        .time_unit = "s", .parameters = parameters, .sections = sections, .options = {},
-        .extras = {}, .outcomes = outcomes, .trace_columns = columns};
+    static constexpr model_info info{.name = "bouncing_ball",
+                                     .title = "Bouncing ball",
+                                     .reference = "this file",
+                                     .time_unit = "s",
+                                     .parameters = parameters,
+                                     .sections = sections,
+                                     .options = {},
+                                     .extras = {},
+                                     .outcomes = outcomes,
+                                     .trace_columns = columns};
 
     static constexpr int n_variants = 1;
     static int variant(const variant_query&) { return 0; }
     static std::string_view refusal(const double*, const int*) { return {}; }
 
     template <class Real>
-    struct lane { Real restitution, gravity, speed, time, events; };
+    struct lane {
+        Real restitution, gravity, speed, time, events;
+    };
 
     template <int Variant, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> begin(lane<Real>& ball, int, const Real* column,
@@ -42,7 +50,9 @@ struct bouncing_ball {
     }
 
     template <class Real>
-    HOPSCOTCH_DEVICE static void read_state(const lane<Real>& ball, int, Real* column) { column[0] = ball.speed; }
+    HOPSCOTCH_DEVICE static void read_state(const lane<Real>& ball, int, Real* column) {
+        column[0] = ball.speed;
+    }
     template <class Real>
     HOPSCOTCH_DEVICE static void read_extras(const lane<Real>&, Real*) {}
 };
