@@ -44,29 +44,39 @@ one_sided_stability one_sided(const return_map_samples& map, const map_branch& b
     return result;
 }
 
+std::vector<sided_attractor> sided_attractors(const scene& scene, const label_plan& plan,
+                                              const std::vector<double>& parameters) {
+    std::vector<sided_attractor> found;
+    const return_map_samples map(scene, parameters);
+    double floor = 0.0;
+    map_branch branch{};
+    for (int k = 0; scene.model->branch(k, branch); ++k) {
+        const auto row = std::find_if(plan.attractors.begin(), plan.attractors.end(),
+                                      [&](const attractor_row& attractor) {
+                                          return attractor.points == std::vector{branch.base};
+                                      });
+        if (row != plan.attractors.end()) {
+            found.push_back({&*row, one_sided(map, branch, floor)});
+        } else if (k > 0) {
+            break;
+        }
+        floor = branch.end;
+    }
+    return found;
+}
+
 void add_immediate_basins(const scene& scene, label_plan& plan) {
     plan.point_axes = parameter_axes(scene);
     const auto points = parameter_points(scene, plan.point_axes);
-    std::vector<const attractor_row*> rows;
-    for (const attractor_row& row : plan.attractors) {
-        if (row.period == 1 && !row.points.empty()) rows.push_back(&row);
-    }
-    plan.n_immediate = static_cast<int>(rows.size());
-    plan.immediate.assign(points.size() * rows.size(), {unbounded, -unbounded, 0});
+    const std::size_t most = plan.attractors.size();
+    plan.n_immediate = static_cast<int>(most);
+    plan.immediate.assign(points.size() * most, {unbounded, -unbounded, 0});
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t p = 0; p < points.size(); ++p) {
-        const return_map_samples map(scene, points[p]);
-        for (std::size_t r = 0; r < rows.size(); ++r) {
-            map_branch branch{};
-            map_branch before{};
-            for (int k = 0; scene.model->branch(k, branch) && branch.base < rows[r]->points[0];
-                 ++k) {
-                before = branch;
-            }
-            if (branch.base != rows[r]->points[0]) continue;
-            const one_sided_stability found = one_sided(map, branch, before.end);
-            plan.immediate[p * rows.size() + r] = {
-                branch.base - found.left.extent, branch.base + found.right.extent, rows[r]->label};
+        std::size_t slot = p * most;
+        for (const auto& [row, sides] : sided_attractors(scene, plan, points[p])) {
+            plan.immediate[slot++] = {sides.point - sides.left.extent,
+                                      sides.point + sides.right.extent, row->label};
         }
     }
 }

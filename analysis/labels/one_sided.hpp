@@ -34,6 +34,17 @@ struct one_sided_stability {
 one_sided_stability one_sided(const return_map_samples& map, const map_branch& branch,
                               double floor);
 
+/// Both sides of an attractor that is the base of a branch.
+struct sided_attractor {
+    const attractor_row* row;
+    one_sided_stability sides;
+};
+
+/// Every attractor of the plan that is the base of a branch, at one parameter point, by rising
+/// point.
+std::vector<sided_attractor> sided_attractors(const scene& scene, const label_plan& plan,
+                                              const std::vector<double>& parameters);
+
 /// The immediate basins of every branch's base at every parameter point of a one_sided scene.
 void add_immediate_basins(const scene& scene, label_plan& plan);
 

@@ -57,24 +57,12 @@ std::vector<sided_row> sided_rows(const scene& scene, const label_plan& plan) {
     if (!scene.model->branch) return rows;
     const std::vector<std::size_t> axes = parameter_axes(scene);
     for (const std::vector<double>& parameters : parameter_points(scene, axes)) {
-        const return_map_samples map(scene, parameters);
         std::vector<double> shown;
         for (const std::size_t axis : axes) {
             shown.push_back(parameters[static_cast<std::size_t>(scene.axes[axis].index)]);
         }
-        double floor = 0.0;
-        map_branch branch{};
-        for (int k = 0; scene.model->branch(k, branch); ++k) {
-            const auto row =
-                std::find_if(plan.attractors.begin(), plan.attractors.end(),
-                             [&](const attractor_row& attractor) {
-                                 return attractor.points == std::vector<double>{branch.base};
-                             });
-            if (row == plan.attractors.end() && k > 0) break;
-            if (row != plan.attractors.end()) {
-                rows.push_back({shown, row->name, one_sided(map, branch, floor)});
-            }
-            floor = branch.end;
+        for (const auto& [row, sides] : sided_attractors(scene, plan, parameters)) {
+            rows.push_back({shown, row->name, sides});
         }
     }
     return rows;
