@@ -15,6 +15,8 @@ function(hopscotch_add_models library)
         list(APPEND names ${model})
         set(folder ${CMAKE_CURRENT_BINARY_DIR}/units/${model})
         get_filename_component(model_header ${header} ABSOLUTE)
+        # the project's own headers by their include path: units are then the same text in every checkout
+        string(REPLACE "${PROJECT_SOURCE_DIR}/kernels/" "kernels/" model_header ${model_header})
         foreach(target ${HOPSCOTCH_TARGETS})
             set(unit ${folder}/${target}.cpp)
             configure_file(${HOPSCOTCH_UNITS}/kernels.cpp.in ${unit} @ONLY)
