@@ -6,6 +6,7 @@
 #include "analysis/truth/decimal.hpp"
 #include "analysis/truth/real50.hpp"
 #include "kernels/contract/model.hpp"
+#include "kernels/ensemble/traps.hpp"
 #include "kernels/lanes/double_double.hpp"
 #include "kernels/lanes/dual.hpp"
 
@@ -61,7 +62,7 @@ private:
         if (done.returned) ++returns;
         steps_ = done.returned ? 0.0 : steps_ + 1.0;
         if (end == outcome::ok && steps_ >= row_.max_steps) end = outcome::budget;
-        if (end == outcome::ok) decide();
+        if (end == outcome::ok) decide(done.returned);
         if (end == outcome::stuck || end == outcome::rest) label = row_.died_label;
         if (label > 0) {
             end = outcome::attracted;
@@ -71,15 +72,30 @@ private:
         }
     }
 
-    void decide() {
-        if (row_.decided_by == decision::certificate) {
-            if constexpr (certifies<Model, Real>) {
+    int end_section() const {
+        return Model::info.sections[static_cast<std::size_t>(row_.section)].returns_to;
+    }
+
+    void decide(bool returned) {
+        const bool asks_model =
+            row_.decided_by == decision::certificate || row_.decided_by == decision::ellipsoids;
+        if constexpr (certifies<Model, Real>) {
+            if (asks_model) {
                 label =
                     static_cast<int>(to_double(primal(Model::template certificate<Variant>(lane))));
             }
+        }
+        if (row_.decided_by == decision::ellipsoids && label == 0 && returned) {
+            Real columns[most_columns];
+            Model::read_state(lane, end_section(), columns);
+            for (const trap_ellipsoid& trap : row_.ellipsoids) {
+                if (!holds(trap, columns)) continue;
+                label = trap.label;
+                return;
+            }
         } else if (row_.decided_by == decision::intervals) {
             Real columns[most_columns];
-            Model::read_state(lane, row_.section, columns);
+            Model::read_state(lane, end_section(), columns);
             for (const trap_interval& trap : row_.traps) {
                 if (columns[0] >= Real(trap.lowest) && columns[0] <= Real(trap.highest)) {
                     label = trap.label;
@@ -125,10 +141,13 @@ orbit_answer plain_answer(const orbit_row& row) {
     return answer;
 }
 
+/// Slopes of a dual orbit: by every column and, in double, by one parameter.
+template <class Model, class Real>
+using orbit_dual = dual<Real, n_derivatives<Model>() + (std::same_as<Real, double> ? 1 : 0)>;
+
 template <class Model, int Variant, class Real>
 void add_derivative(const orbit_row& row, orbit_answer& answer) {
-    constexpr int n = n_derivatives<Model>();
-    using number = dual<Real, n>;
+    using number = orbit_dual<Model, Real>;
     std::vector<number> columns;
     for (std::size_t c = 0; c < row.columns.size(); ++c) {
         number column(parse_real<Real>(row.columns[c]));
@@ -181,6 +200,50 @@ orbit_answer run_orbit(const orbit_row& row) {
     });
 }
 
+template <class Model, int Variant>
+return_jet jet_of(const jet_query& query) {
+    using number = orbit_dual<Model, double>;
+    constexpr int by_parameter = n_derivatives<Model>();
+    const auto& section = Model::info.sections[static_cast<std::size_t>(query.section)];
+    const auto& ends_on = Model::info.sections[static_cast<std::size_t>(section.returns_to)];
+    std::array<number, most_columns> columns;
+    std::array<number, most_parameters> parameters;
+    for (std::size_t c = 0; c < section.columns.size(); ++c) {
+        columns[c] = number::variable(query.columns[c], static_cast<int>(c));
+    }
+    for (std::size_t p = 0; p < Model::info.parameters.size(); ++p) {
+        parameters[p] = number(query.parameters[p]);
+        if (static_cast<int>(p) == query.by_parameter) parameters[p].slope[by_parameter] = 1.0;
+    }
+    const orbit_row row{.section = query.section,
+                        .options = query.options,
+                        .returns = query.returns,
+                        .max_steps = query.max_steps};
+    single_orbit<Model, Variant, number> orbit(row);
+    unwatched watch;
+    orbit.run(columns.data(), parameters.data(), watch);
+
+    return_jet jet{.end = orbit.end, .returns = orbit.returns};
+    jet.events = static_cast<std::uint64_t>(orbit.lane.events.value);
+    jet.time = orbit.lane.time.value;
+    std::array<number, most_columns> state;
+    Model::read_state(orbit.lane, section.returns_to, state.data());
+    for (std::size_t i = 0; i < ends_on.columns.size(); ++i) {
+        jet.state[i] = state[i].value;
+        for (std::size_t j = 0; j < section.columns.size(); ++j) {
+            jet.derivative[i][j] = state[i].slope[j];
+        }
+        jet.parameter_derivative[i] = state[i].slope[by_parameter];
+    }
+    return jet;
+}
+
+template <class Model>
+return_jet run_jet(const jet_query& query) {
+    return with_variant<Model>(query.variant,
+                               [&](auto variant) { return jet_of<Model, variant()>(query); });
+}
+
 /// Passes a model's phases and events on to an observer.
 struct watching {
     static constexpr bool is_active = true;
@@ -214,8 +277,8 @@ orbit_answer trace_orbit(const orbit_row& row, orbit_observer& observer) {
 }
 
 template <class Model>
-inline constexpr orbit_functions orbit_table{&run_orbit<Model, double>,
-                                             &run_orbit<Model, double_double<double>>,
-                                             &run_orbit<Model, real50>, &trace_orbit<Model>};
+inline constexpr orbit_functions orbit_table{
+    &run_orbit<Model, double>, &run_orbit<Model, double_double<double>>, &run_orbit<Model, real50>,
+    &trace_orbit<Model>, &run_jet<Model>};
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

@@ -28,6 +28,7 @@ struct orbit_row {
     // to label the orbit instead of counting its returns
     decision decided_by = decision::returns;
     std::span<const trap_interval> traps;
+    std::span<const trap_ellipsoid> ellipsoids;
     std::int16_t died_label = 0;
 };
 
@@ -41,6 +42,31 @@ struct orbit_answer {
         columns;  // of the section the returns end on; empty where there is no state
     std::vector<std::string> extras;
     std::vector<std::string> derivative;  // d(column i)_d(start column j), row by row
+};
+
+/// A point of a return map whose derivatives are wanted. Unlike orbit_row all numbers are doubles:
+/// for searches that evaluate the map many thousand times.
+struct jet_query {
+    int section = 0;
+    const int* options = nullptr;
+    int variant = 0;
+    const double* columns = nullptr;     // one per column of the section
+    const double* parameters = nullptr;  // one per parameter of the model
+    std::uint32_t returns = 1;
+    double max_steps = 1e5;  // per return
+    int by_parameter = -1;   // also differentiate by this parameter
+};
+
+/// P^returns at one point with its exact derivatives (through events), in double. The values are
+/// bit for bit those of the kernels.
+struct return_jet {
+    outcome end = outcome::ok;  // the numbers below mean nothing unless it is ok
+    std::uint32_t returns = 0;
+    std::uint64_t events = 0;
+    double time = 0.0;
+    double state[most_columns] = {};                     // of the section the returns end on
+    double derivative[most_columns][most_columns] = {};  // d state[i] / d columns[j]
+    double parameter_derivative[most_columns] = {};      // d state[i] / d parameter
 };
 
 /// Watches one orbit (see kernels/contract/watch.hpp). `sampler(t, columns)` gives the state t
@@ -67,6 +93,7 @@ struct orbit_functions {
     orbit_answer (*run_dd)(const orbit_row&);
     orbit_answer (*run_mp50)(const orbit_row&);
     orbit_answer (*trace)(const orbit_row&, orbit_observer&);  // in double
+    return_jet (*jet)(const jet_query&);
 };
 
 }  // namespace hopscotch

@@ -5,6 +5,7 @@
 
 #include "kernels/contract/model.hpp"
 #include "kernels/ensemble/request.hpp"
+#include "kernels/ensemble/traps.hpp"
 #include "kernels/lanes/lane.hpp"
 
 #include <type_traits>
@@ -178,13 +179,18 @@ private:
 
         ended = select(spent & (ended == zero), code_of<Real>(outcome::budget), ended);
         Real label = zero;
-        if (request_.decided_by == decision::certificate) {
+        const bool asks_model = request_.decided_by == decision::certificate ||
+                                request_.decided_by == decision::ellipsoids;
+        if (asks_model) {
             if constexpr (certifies<Model, Real>) {
                 label = select(active & (ended == zero),
                                Model::template certificate<Variant>(at.motion), zero);
             }
-        } else if (request_.decided_by == decision::intervals) {
+        }
+        if (request_.decided_by == decision::intervals) {
             find_intervals(at, cells, active & (ended == zero), label);
+        } else if (request_.decided_by == decision::ellipsoids) {
+            find_ellipsoids(at, cells, returned & (ended == zero) & (label == zero), label);
         }
         const mask_of<Real> dies =
             (ended == code_of<Real>(outcome::stuck)) | (ended == code_of<Real>(outcome::rest));
@@ -218,6 +224,35 @@ private:
                     lanes_of(label)[lane] = static_cast<double>(trap[i].label);
                     break;
                 }
+            }
+        }
+    }
+
+    HOPSCOTCH_DEVICE void find_ellipsoids(const state& at, const std::uint64_t* cells,
+                                          mask_of<Real> wanted, Real& label) {
+        if (!any(wanted)) return;
+        Real columns[most_columns];
+        Model::read_state(at.motion, request_.end_section, columns);
+        if (request_.trap_point.size == 1) {  // the same traps for every lane
+            for (int i = request_.n_ellipsoids; i-- > 0;) {
+                const trap_ellipsoid& trap = request_.ellipsoids[i];
+                label = select(wanted & holds(trap, columns), Real(static_cast<double>(trap.label)),
+                               label);
+            }
+            return;
+        }
+        const Real flags = select(wanted, Real(1.0), Real(0.0));
+        for (int lane = 0; lane < width; ++lane) {
+            if (!(lanes_of(flags)[lane] > 0.0)) continue;
+            double x[most_columns];
+            for (int c = 0; c < most_columns; ++c) x[c] = lanes_of(columns[c])[lane];
+            const auto point = static_cast<std::uint64_t>(request_.trap_point.at(cells[lane]));
+            const trap_ellipsoid* trap =
+                request_.ellipsoids + point * static_cast<std::uint64_t>(request_.n_ellipsoids);
+            for (int i = 0; i < request_.n_ellipsoids; ++i) {
+                if (!holds(trap[i], x)) continue;
+                lanes_of(label)[lane] = static_cast<double>(trap[i].label);
+                break;
             }
         }
     }

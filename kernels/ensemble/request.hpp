@@ -26,11 +26,21 @@ struct trap_interval {
     std::int32_t label;
 };
 
+/// States x of the section with |A (x - centre)| <= 1 (2-norm) carry `label` (see
+/// kernels/ensemble/traps.hpp). A column that the flow conserves has zeros in A.
+struct trap_ellipsoid {
+    std::int32_t n_columns;
+    std::int32_t label;
+    double centre[most_columns];
+    double shape[most_columns * most_columns];  // A, n_columns x n_columns, row by row
+};
+
 /// What decides an orbit, besides its own end.
 enum class decision : std::uint8_t {
     returns,      // nothing: the orbit runs for the returns asked for
     certificate,  // the model's own proof
     intervals,    // entering one of the trap intervals of its parameter point
+    ellipsoids,   // the model's own proof, where it has one, or entering a trap ellipsoid
 };
 
 /// One rectangle of cells (or list of rows) for one kernel call. Null results are not wanted.
@@ -49,6 +59,8 @@ struct ensemble_request {
 
     const trap_interval* traps = nullptr;  // [parameter point][n_traps]
     int n_traps = 0;
+    const trap_ellipsoid* ellipsoids = nullptr;  // [parameter point][n_ellipsoids]
+    int n_ellipsoids = 0;
     column_source trap_point;  // value = index of the cell's parameter point
 
     std::int16_t* label = nullptr;
