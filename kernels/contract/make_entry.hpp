@@ -6,6 +6,13 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
+/// A model some of whose columns are phases that wrap: turn(section, column, parameters) is the
+/// length of a full turn, 0 for a column that does not wrap.
+template <class Model>
+concept has_turns = requires(const double* parameters) {
+    { Model::turn(0, 0, parameters) } -> std::same_as<double>;
+};
+
 /// The parts of an entry that come from the header alone; kernels and orbits are added by the unit.
 template <class Model>
 constexpr model_entry described_entry() {
@@ -19,6 +26,7 @@ constexpr model_entry described_entry() {
         entry.describe_label = &Model::describe_label;
     }
     if constexpr (has_branches<Model>) entry.branch = &Model::branch;
+    if constexpr (has_turns<Model>) entry.turn = &Model::turn;
     return entry;
 }
 

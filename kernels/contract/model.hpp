@@ -23,7 +23,7 @@
 //       static bool certificate_covers(const variant_query&);
 //       static bool describe_label(int label, label_description&);
 //       // optional: the branches of a one-dimensional return map, index = 0, 1, 2, ...
-//       static bool branch(int index, map_branch&);
+//       static bool branch(int index, map_branch&);  // and phases that wrap: see make_entry.hpp
 //   };
 //
 // `begin` places a trajectory on (or flies it towards) the section; `step` performs a bounded

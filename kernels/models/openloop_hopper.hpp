@@ -75,6 +75,10 @@ struct openloop_hopper {
         }
         return {};
     }
+    /// The clock's phase wraps.
+    static constexpr double turn(int section, int column, const double* parameter) {
+        return section != openloop::strobe && column == 0 ? parameter[stride_period] : 0.0;
+    }
 
     template <class Real>
     using lane = openloop::hopper_lane<Real>;

@@ -55,6 +55,10 @@ struct paddle_juggler {
     static constexpr int n_variants = 1;
     static int variant(const variant_query&) { return 0; }
     static constexpr std::string_view refusal(const double*, const int*) { return {}; }
+    /// The phase wraps.
+    static constexpr double turn(int, int column, const double*) {
+        return column == 0 ? 0x1.921fb54442d18p+2 : 0.0;
+    }
 
     template <class Real>
     struct lane {
