@@ -48,7 +48,10 @@ settled_orbits settle(const map_point& map, int section, std::span<const double>
     request.label = result.label.data();
     request.returns = result.returns.data();
     for (std::size_t c = 0; c < n_to; ++c) request.state[c] = states[c].data();
-    if (n > 0) choose_kernel(*map.model, map.variant, "auto").run(request);
+    // a wide pack costs the same for one orbit as for many; the bits are the same either way
+    constexpr std::size_t few = 4;
+    const std::string_view backend = n <= few ? "scalar" : "auto";
+    if (n > 0) choose_kernel(*map.model, map.variant, backend).run(request);
 
     result.state.resize(n * n_to);
     for (std::size_t i = 0; i < n; ++i) {

@@ -4,14 +4,13 @@
 // section 5, CPRR Fig. 8.
 #pragma once
 
+#include "analysis/attractors/attractor_kind.hpp"
 #include "analysis/labels/return_map_samples.hpp"
 #include "kernels/contract/info.hpp"
 
 #include <optional>
 
 namespace hopscotch {
-
-enum class attractor_kind : std::uint8_t { resting, fixed_point, cycle, chaotic };
 
 /// An interval that the map sends into itself, with the attractor that it holds.
 struct interval_trap {

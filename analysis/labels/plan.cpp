@@ -2,7 +2,9 @@
 #include "analysis/labels/plan.hpp"
 
 #include "analysis/labels/interval_trap.hpp"
+#include "analysis/labels/label_colours.hpp"
 #include "analysis/labels/one_sided.hpp"
+#include "analysis/labels/searched_plan.hpp"
 #include "host/scene/grid.hpp"
 
 #include <fmt/format.h>
@@ -14,16 +16,6 @@
 
 namespace hopscotch {
 namespace {
-
-// Okabe and Ito's colours (distinguishable with every kind of colour vision), then again in lighter
-// tones.
-constexpr std::uint32_t palette[] = {0x9aa0a6, 0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7, 0x56b4e9,
-                                     0xd55e00, 0xf0e442, 0x7f5fa8, 0x8c6d3f, 0x66c2a5, 0xfc8d62,
-                                     0x8da0cb, 0xe78ac3, 0xa6d854, 0xffd92f};
-
-std::uint32_t colour_of(int label) {
-    return palette[static_cast<std::size_t>(label - 1) % std::size(palette)];
-}
 
 std::string name_of(const label_description& text) {
     return text.index < 0 ? std::string(text.kind) : fmt::format("{} {}", text.kind, text.index);
@@ -212,28 +204,19 @@ std::vector<std::size_t> parameter_axes(const scene& scene) {
     return axes;
 }
 
-label_plan plan_labels(const scene& scene) {
+label_plan plan_labels(const scene& scene, std::span<const std::uint64_t> searched) {
     if (!scene.question.has_labels) return {};
     const parameter_extremes extremes = extremes_of(scene);
     const variant_query query{extremes.lowest.data(), extremes.highest.data(), scene.options.data(),
                               true};
-    std::optional<label_plan> plan;
-    if (scene.model->certificate_covers && scene.model->certificate_covers(query)) {
-        plan = plan_by_certificate(scene);
-    } else if (scene.model->branch) {
-        plan = plan_by_intervals(scene);
+    const bool is_certain =
+        scene.model->certificate_covers && scene.model->certificate_covers(query);
+    if (!is_certain && !scene.model->branch) return plan_by_search(scene, searched);
+    label_plan plan = is_certain ? plan_by_certificate(scene) : plan_by_intervals(scene);
+    if (scene.question.kind == "one_sided" && scene.model->branch) {
+        add_immediate_basins(scene, plan);
     }
-    if (plan && scene.question.kind == "one_sided" && scene.model->branch) {
-        add_immediate_basins(scene, *plan);
-    }
-    if (plan) return *plan;
-    throw scene_error(mistake{
-        .place = scene.question.place,
-        .key = "question.kind",
-        .value = fmt::format("\"{}\"", scene.question.kind),
-        .why = fmt::format("{} has no certificate for these parameters and no branches to search",
-                           scene.info().name),
-        .suggestion = "question.kind = \"return_map\""});
+    return plan;
 }
 
 }  // namespace hopscotch

@@ -6,14 +6,15 @@
 #include "host/run/label_plan.hpp"
 #include "host/scene/scene.hpp"
 
+#include <span>
+
 namespace hopscotch {
 
 /// The plan of a scene's labels. Independent of grid order, threads and backend.
 ///
-/// \error scene_error where the question needs labels and the model offers neither a certificate
-/// for
-///        this scene nor the branches of a one-dimensional return map
-label_plan plan_labels(const scene& scene);
+/// \param searched  cells (rising) from which to search once more, because a first pass has left
+///                  them without a label; only plans by search look at them
+label_plan plan_labels(const scene& scene, std::span<const std::uint64_t> searched = {});
 
 /// Positions of the scene's parameter axes.
 std::vector<std::size_t> parameter_axes(const scene& scene);

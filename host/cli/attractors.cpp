@@ -41,6 +41,10 @@ std::string table_of(const label_plan& plan) {
         rows.push_back({fmt::format("{}", row.label), row.name, fmt::format("{}", row.period),
                         numbers_text(row.points), numbers_text(row.multipliers_real), row.trap});
     }
+    for (const attractor_row& row : plan.unstable) {
+        rows.push_back({"-", row.name, fmt::format("{}", row.period), numbers_text(row.points),
+                        numbers_text(row.multipliers_real), "none: unstable"});
+    }
     return aligned(rows, 0);
 }
 
@@ -99,19 +103,24 @@ std::string side_json(const stability_side& side) {
         side.attracts, side.coefficient, side.exponent, side.extent);
 }
 
+std::string rows_json(const std::vector<attractor_row>& rows) {
+    std::string text;
+    for (const attractor_row& row : rows) {
+        text += fmt::format(
+            "{}\n  {{\"label\": {}, \"name\": {}, \"period\": {}, \"points\": {}, "
+            "\"multipliers_real\": {}, \"multipliers_imaginary\": {}, \"trap\": {}}}",
+            text.empty() ? "" : ",", row.label, json_text(row.name), row.period,
+            json_numbers(row.points), json_numbers(row.multipliers_real),
+            json_numbers(row.multipliers_imaginary), json_text(row.trap));
+    }
+    return text;
+}
+
 std::string json_of(const scene& scene, const label_plan& plan,
                     const std::vector<sided_row>& rows) {
     std::string text = fmt::format("{{\"model\": {}, \"columns\": {}, \"attractors\": [",
                                    json_text(scene.info().name), json_texts(plan.point_columns));
-    for (std::size_t i = 0; i < plan.attractors.size(); ++i) {
-        const attractor_row& row = plan.attractors[i];
-        text += fmt::format(
-            "{}\n  {{\"label\": {}, \"name\": {}, \"period\": {}, \"points\": {}, "
-            "\"multipliers_real\": {}, \"multipliers_imaginary\": {}, \"trap\": {}}}",
-            i == 0 ? "" : ",", row.label, json_text(row.name), row.period, json_numbers(row.points),
-            json_numbers(row.multipliers_real), json_numbers(row.multipliers_imaginary),
-            json_text(row.trap));
-    }
+    text += rows_json(plan.attractors) + "\n], \"unstable\": [" + rows_json(plan.unstable);
     text += "\n], \"one_sided\": [";
     for (std::size_t i = 0; i < rows.size(); ++i) {
         text += fmt::format(

@@ -5,6 +5,7 @@
 #include "host/cli/trace_writer.hpp"
 #include "host/cli/usage_error.hpp"
 #include "host/run/attributes.hpp"
+#include "host/run/open_cells.hpp"
 #include "host/run/truth_orbits.hpp"
 #include "host/scene/grid.hpp"
 
@@ -96,7 +97,7 @@ int replay(const replay_arguments& given) {
     const map_reader map(given.file);
     const scene scene = scene_of(map);
     const std::vector<std::uint64_t> coordinates = coordinates_in(scene, given.cell);
-    const label_plan plan = plan_labels(scene);
+    const label_plan plan = plan_labels(scene, cells_of(map.attribute(searched_cells)));
     const owned_row row = row_of(scene, plan, coordinates);
     print_events(scene, row, given);
     print_start(scene, coordinates);
@@ -105,7 +106,7 @@ int replay(const replay_arguments& given) {
     fmt::print("{:<8} {}\n", "stored", value_name(scene, plan, stored));
     int best = stored;
     for (const precision value : {precision::binary64, precision::dd, precision::mp50}) {
-        const orbit_answer answer = run_orbit(*scene.model, value, row.row);
+        const orbit_answer answer = run_cell(scene, plan, coordinates, value, row.row);
         best = scene.question.has_labels ? answer.label : static_cast<int>(answer.end);
         fmt::print("{:<8} {}  outcome {}, {} returns, {} events, time {}\n", name_of(value),
                    value_name(scene, plan, best), name_of(answer.end), answer.returns,

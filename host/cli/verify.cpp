@@ -2,6 +2,7 @@
 #include "analysis/labels/plan.hpp"
 #include "host/cli/commands.hpp"
 #include "host/run/attributes.hpp"
+#include "host/run/open_cells.hpp"
 #include "host/run/audit.hpp"
 #include "host/store/verify.hpp"
 
@@ -22,7 +23,7 @@ struct verify_arguments {
 void recompute(const verify_arguments& given) {
     const map_reader map(given.file);
     const scene scene = scene_of(map);
-    const label_plan plan = plan_labels(scene);
+    const label_plan plan = plan_labels(scene, cells_of(map.attribute(searched_cells)));
     const audit_report report = audit(
         scene, plan, [&](std::uint64_t tile) { return map.tile(tile); }, given.n_cells, given.seed);
     fmt::print("cells recomputed  {} (dd; disputed ones mp50)\n", report.n_cells);

@@ -69,11 +69,13 @@ std::vector<int> stored_values(const scene& scene, const tile_source& tiles,
 }  // namespace
 
 cell_verdict judge(const scene& scene, const label_plan& plan, std::uint64_t cell, int stored) {
-    const owned_row row = row_of(scene, plan, coordinates_of(scene, cell));
+    const std::vector<std::uint64_t> coordinates = coordinates_of(scene, cell);
+    const owned_row row = row_of(scene, plan, coordinates);
     cell_verdict verdict{cell, stored, 0};
-    verdict.computed = compared(scene, run_orbit(*scene.model, precision::dd, row.row));
-    if (verdict.agrees()) return verdict;
-    verdict.computed = compared(scene, run_orbit(*scene.model, precision::mp50, row.row));
+    for (const precision value : {precision::dd, precision::mp50}) {
+        verdict.computed = compared(scene, run_cell(scene, plan, coordinates, value, row.row));
+        if (verdict.agrees()) break;
+    }
     return verdict;
 }
 

@@ -25,6 +25,8 @@ ensemble_request common_request(const scene& scene, const label_plan& plan) {
     request.died_label = plan.died_label;
     request.traps = plan.traps.empty() ? nullptr : plan.traps.data();
     request.n_traps = plan.n_traps;
+    request.ellipsoids = plan.ellipsoids.data();
+    request.n_ellipsoids = plan.n_ellipsoids;
     return request;
 }
 

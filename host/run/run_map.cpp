@@ -2,6 +2,7 @@
 #include "host/run/run_map.hpp"
 
 #include "host/run/attributes.hpp"
+#include "host/run/open_cells.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/tiles.hpp"
@@ -28,13 +29,13 @@ struct finished_tile {
 /// flight.
 class tile_pipeline {
 public:
-    tile_pipeline(const tile_job& job, map_run& run, const stop_condition& stop, int n_threads,
-                  bool is_quiet)
+    tile_pipeline(const tile_job& job, std::vector<std::uint64_t> tiles, map_run& run,
+                  const stop_condition& stop, int n_threads, bool is_quiet)
         : job_(job),
           run_(run),
           stop_(stop),
           n_threads_(n_threads),
-          missing_(run.missing_tiles()),
+          tiles_(std::move(tiles)),
           progress_(job.layout.n_cells(), cells_done(), is_quiet) {}
 
     run_tally compute() {
@@ -56,15 +57,18 @@ public:
         return tally_;
     }
 
+    /// Tiles that were not reached before the run had to stop.
+    std::size_t n_left() const { return tiles_.size() - next_; }
+
 private:
     std::uint64_t cells_done() const {
-        std::uint64_t missing = 0;
-        for (const std::uint64_t tile : missing_) missing += box_of(job_.layout, tile).n_cells();
-        return job_.layout.n_cells() - missing;
+        std::uint64_t wanted = 0;
+        for (const std::uint64_t tile : tiles_) wanted += box_of(job_.layout, tile).n_cells();
+        return job_.layout.n_cells() - wanted;
     }
 
     std::uint64_t next(tbb::flow_control& flow) {
-        if (next_ < missing_.size() && !stop_.is_due(1.5 * slowest_)) return missing_[next_++];
+        if (next_ < tiles_.size() && !stop_.is_due(1.5 * slowest_)) return tiles_[next_++];
         flow.stop();
         return 0;
     }
@@ -94,7 +98,7 @@ private:
     map_run& run_;
     const stop_condition& stop_;
     int n_threads_;
-    std::vector<std::uint64_t> missing_;
+    std::vector<std::uint64_t> tiles_;
     std::size_t next_ = 0;
     std::atomic<double> slowest_ = 0.0;  // seconds of the slowest tile so far
     run_tally tally_;
@@ -110,6 +114,20 @@ void set_shares(std::vector<attractor_row>& attractors, const value_counts& labe
     }
 }
 
+/// Searches for attractors from the cells that the first pass has left without a label. Returns the
+/// tiles to compute once more: those with such cells, if new attractors were found.
+std::vector<std::uint64_t> search_again(const scene& scene, const run_hooks& hooks, map_run& run,
+                                        label_plan& plan) {
+    const open_cells open = find_open_cells(scene, run);
+    if (open.sample.empty()) return {};
+    if (!plan.searched.empty()) return open.tiles;  // a resumed run: some may be done already
+    label_plan more = hooks.plan(scene, open.sample);
+    if (more.attractors.size() == plan.attractors.size()) return {};
+    run.keep(searched_cells, text_of(open.sample));
+    plan = std::move(more);
+    return open.tiles;
+}
+
 void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hooks, map_run& run,
                 run_report& report) {
     if (scene.question.has_labels) report.labels = run.counts("label");
@@ -118,7 +136,9 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
     set_shares(report.attractors, report.labels, report.n_cells);
     if (hooks.audit && scene.accuracy.audit_cells > 0) report.audit = hooks.audit(scene, plan, run);
     report.hash = run.hash();
-    run.finish({report.audit, report.attractors, plan.point_columns});
+    attribute_list attributes = report.audit;
+    if (!plan.searched.empty()) attributes.emplace_back(searched_cells, text_of(plan.searched));
+    run.finish({attributes, report.attractors, plan.point_columns});
     report.is_finished = true;
 }
 
@@ -143,17 +163,30 @@ run_report run_map(const scene& scene, const run_choices& choices, const run_hoo
     if (report.is_finished) return report;
 
     label_plan plan;
-    if (hooks.plan && scene.question.has_labels) plan = hooks.plan(scene);
+    if (hooks.plan && scene.question.has_labels) {
+        plan = hooks.plan(scene, cells_of(run.kept(searched_cells)));
+    }
     const std::vector<layer_plan> layers = chosen_layers(scene);
     const tile_job job{scene, plan, layout, layers, kernel};
     const double begin = stop.elapsed();
     const int n_threads = threads_for(choices.n_threads);
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(n_threads));
-    report.tally = tile_pipeline(job, run, stop, n_threads, choices.is_quiet).compute();
-    report.seconds = stop.elapsed() - begin;
-    report.n_missing = run.missing_tiles().size();
-    if (report.n_missing > 0) return report;
+    const auto compute = [&](std::vector<std::uint64_t> tiles) {
+        tile_pipeline pipeline(job, std::move(tiles), run, stop, n_threads, choices.is_quiet);
+        const run_tally tally = pipeline.compute();
+        report.tally.cells += tally.cells;
+        report.tally.undecided += tally.undecided;
+        report.tally.lanes += tally.lanes;
+        report.seconds = stop.elapsed() - begin;
+        report.n_missing = pipeline.n_left();
+        return report.n_missing == 0;
+    };
+    if (!compute(run.missing_tiles())) return report;
+    if (hooks.plan && plan.decided_by == decision::ellipsoids) {
+        const std::vector<std::uint64_t> open_tiles = search_again(scene, hooks, run, plan);
+        if (!compute(open_tiles)) return report;
+    }
     try {
         finish_map(scene, plan, hooks, run, report);
     } catch (const interruption&) {

@@ -26,7 +26,8 @@ struct run_choices {
 
 /// The analysis' part in a run. Both may be empty: then cells have no labels, and no audit is made.
 struct run_hooks {
-    std::function<label_plan(const scene&)> plan;
+    /// The plan of a scene's labels; cells that a first pass has left open are searched once more.
+    std::function<label_plan(const scene&, std::span<const std::uint64_t> searched)> plan;
     std::function<attribute_list(const scene&, const label_plan&, const map_run&)> audit;
 };
 

@@ -77,6 +77,23 @@ void fill_immediate(const label_plan& plan, const ensemble_request& request,
     }
 }
 
+/// Orbits that have spent their returns uncaught belong to the chaotic set that their last state
+/// lies on, if there is one.
+void label_chaotic(const label_plan& plan, const ensemble_request& request, std::size_t n_columns) {
+    std::vector<double> state(n_columns);
+    for (std::uint64_t cell = 0; cell < request.n_cells; ++cell) {
+        const bool is_spent = request.outcome[cell] == static_cast<int>(outcome::budget) &&
+                              request.returns[cell] == request.max_returns;
+        if (!is_spent) continue;
+        for (std::size_t c = 0; c < n_columns; ++c) state[c] = request.state[c][cell];
+        const auto point = static_cast<std::size_t>(request.trap_point.at(cell));
+        const std::int16_t label = plan.chaotic_label(point, state);
+        if (label == 0) continue;
+        request.label[cell] = label;
+        request.outcome[cell] = static_cast<std::uint8_t>(outcome::attracted);
+    }
+}
+
 /// State layers of cells without a state say so: NaN. A return map is blank where a return failed.
 void blank_states(const scene& scene, const ensemble_request& request) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -108,7 +125,14 @@ tile_result compute_tile(const tile_job& job, const tile_box& box) {
         returns.resize(n_cells);
         cells.request.returns = returns.data();
     }
+    std::vector<std::vector<double>> states;  // likewise, where chaotic sets are told by them
+    const std::size_t n_columns = job.what.end_section().columns.size();
+    for (std::size_t c = 0; c < n_columns && !job.plan.chaotic.empty(); ++c) {
+        if (cells.request.state[c] != nullptr) continue;
+        cells.request.state[c] = states.emplace_back(n_cells).data();
+    }
     result.lanes = job.kernel.run(cells.request);
+    if (!job.plan.chaotic.empty()) label_chaotic(job.plan, cells.request, n_columns);
     blank_states(job.what, cells.request);
     for (std::size_t i = 0; i < job.layers.size(); ++i) {
         auto& buffer = result.data.layers[i];

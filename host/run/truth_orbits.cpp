@@ -39,10 +39,13 @@ owned_row row_of(const scene& scene, const label_plan& plan,
     row.max_steps = static_cast<double>(scene.accuracy.max_events);
     row.decided_by = plan.decided_by;
     row.died_label = plan.died_label;
+    const std::size_t point = point_index(scene, plan, coordinates);
     if (plan.decided_by == decision::intervals) {
         const auto n_traps = static_cast<std::size_t>(plan.n_traps);
-        const std::size_t point = point_index(scene, plan, coordinates);
         row.traps = std::span(plan.traps).subspan(point * n_traps, n_traps);
+    } else if (plan.decided_by == decision::ellipsoids) {
+        const auto n_traps = static_cast<std::size_t>(plan.n_ellipsoids);
+        row.ellipsoids = std::span(plan.ellipsoids).subspan(point * n_traps, n_traps);
     }
     return result;
 }
@@ -57,6 +60,20 @@ std::string_view name_of(precision value) {
             return "mp50";
     }
     return "";
+}
+
+orbit_answer run_cell(const scene& scene, const label_plan& plan,
+                      std::span<const std::uint64_t> coordinates, precision value,
+                      const orbit_row& row) {
+    orbit_answer answer = run_orbit(*scene.model, value, row);
+    if (answer.end != outcome::budget || answer.returns < row.returns || plan.chaotic.empty()) {
+        return answer;
+    }
+    std::vector<double> state;
+    for (const std::string& text : answer.columns) state.push_back(std::stod(text));
+    answer.label = plan.chaotic_label(point_index(scene, plan, coordinates), state);
+    if (answer.label > 0) answer.end = outcome::attracted;
+    return answer;
 }
 
 orbit_answer run_orbit(const model_entry& model, precision value, const orbit_row& row) {

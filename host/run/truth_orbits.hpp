@@ -32,6 +32,11 @@ enum class precision : std::uint8_t { binary64, dd, mp50 };
 
 std::string_view name_of(precision value);
 
+/// One cell's row from `row_of`, with the labels of chaotic sets too.
+orbit_answer run_cell(const scene& scene, const label_plan& plan,
+                      std::span<const std::uint64_t> coordinates, precision value,
+                      const orbit_row& row);
+
 /// \error std::invalid_argument where the model is built without single orbits
 orbit_answer run_orbit(const model_entry& model, precision value, const orbit_row& row);
 

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <system_error>
 
@@ -102,6 +103,7 @@ void map_run::implementation::clear_or_refuse() {
     const std::vector<std::uint64_t> present = tiles_present(directory);
     if (options.existing == if_exists::replace) {
         remove_tiles(directory);
+        remove_kept(directory);
     } else if (options.existing == if_exists::refuse && !present.empty()) {
         throw store_error(directory.string(),
                           "an unfinished run with " + plural(present.size(), "tile") + " of " +
@@ -313,6 +315,17 @@ value_counts map_run::counts(std::string_view layer) const {
 std::string map_run::hash() const {
     const std::lock_guard guard(self_->mutex);
     return map_hash(self_->layout, self_->sums());
+}
+
+void map_run::keep(const std::string& name, const std::string& text) {
+    write_atomically(kept_path(self_->directory, name), std::as_bytes(std::span(text)));
+}
+
+std::string map_run::kept(std::string_view name) const {
+    const std::filesystem::path path = kept_path(self_->directory, name);
+    if (self_->is_complete || !std::filesystem::exists(path)) return {};
+    const std::vector<std::byte> bytes = read_bytes(path);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 void map_run::rescan() {

@@ -83,6 +83,13 @@ public:
     /// The hash over the finished tiles (the map's hash once none is missing).
     std::string hash() const;
 
+    /// Keeps a text with the run until it is finished: what a resumed run must not decide anew.
+    /// \error store_error
+    void keep(const std::string& name, const std::string& text);
+
+    /// What this run or the one it resumes has kept; empty where it has not.
+    std::string kept(std::string_view name) const;
+
     /// Looks for tiles that helpers have put since; for the owner, before `finish`.
     void rescan();
 

@@ -28,6 +28,8 @@ bool is_partial(const std::filesystem::path& file) {
     return file.filename().string().find(partial_mark) != std::string::npos;
 }
 
+constexpr const char* kept_ending = ".kept";
+
 }  // namespace
 
 std::filesystem::path directory_of(const std::filesystem::path& map) {
@@ -73,8 +75,19 @@ void remove_tiles(const std::filesystem::path& directory) {
     });
 }
 
+std::filesystem::path kept_path(const std::filesystem::path& directory, std::string_view name) {
+    return directory / (std::string(name) + kept_ending);
+}
+
+void remove_kept(const std::filesystem::path& directory) {
+    for_each_file(directory, [](const std::filesystem::path& file) {
+        if (file.extension() == kept_ending) remove_file(file);
+    });
+}
+
 void remove_directory(const std::filesystem::path& directory) {
     remove_tiles(directory);
+    remove_kept(directory);
     remove_partial_files(directory);
     remove_file(description_path(directory));
     std::error_code ignored;  // somebody may have put a file of his own there

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hopscotch {
@@ -28,7 +29,11 @@ void remove_partial_files(const std::filesystem::path& directory);
 
 void remove_tiles(const std::filesystem::path& directory);
 
-/// Removes tiles, description and temporary files, and the directory once it is empty.
+/// Where a run keeps a text under a name.
+std::filesystem::path kept_path(const std::filesystem::path& directory, std::string_view name);
+void remove_kept(const std::filesystem::path& directory);
+
+/// Removes tiles, kept texts, description and temporary files, and the directory once it is empty.
 void remove_directory(const std::filesystem::path& directory);
 
 void write_run_description(const std::filesystem::path& directory, const map_description& map);

@@ -9,5 +9,5 @@ cd "$work"
 reduced=()
 axes=$(grep -c '^\[\[grid.axis\]\]' "$scene")
 for ((axis = 0; axis < axes; ++axis)); do reduced+=("grid.axis.$axis.cells=24"); done
-"$program" run "$scene" "${reduced[@]}" accuracy.audit_cells=20 --quiet -o map.h5
-"$program" verify map.h5 --cells 5
+"$program" run "$scene" "${reduced[@]}" accuracy.audit_cells=5 --quiet -o map.h5
+"$program" verify map.h5 --cells 2

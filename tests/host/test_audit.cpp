@@ -35,7 +35,7 @@ returns = 20
 tile = [16, 7]
 )";
 
-label_plan plan_of(const scene& scene) {
+label_plan plan_of(const scene& scene, std::span<const std::uint64_t> = {}) {
     label_plan plan;
     plan.decided_by = decision::intervals;
     plan.point_axes = {1};

@@ -49,7 +49,7 @@ layers = ["label", "outcome", "returns", "period", "last_height", "speed", "time
 
 /// Attractor 1 below 0.5; attractor 2 above 10 times the gain, so that traps differ between
 /// columns.
-label_plan plan_of(const scene& scene) {
+label_plan plan_of(const scene& scene, std::span<const std::uint64_t> = {}) {
     label_plan plan;
     plan.decided_by = decision::intervals;
     plan.point_axes = {1};

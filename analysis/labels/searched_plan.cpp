@@ -1,0 +1,316 @@
+// From the attractors found at every parameter point to one table of labels.
+#include "analysis/labels/searched_plan.hpp"
+
+#include "analysis/attractors/settle.hpp"
+#include "analysis/labels/label_colours.hpp"
+#include "analysis/labels/plan.hpp"
+#include "host/scene/grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace hopscotch {
+namespace {
+
+/// What an attractor is called by over all parameter points: its kind, period, and place among
+/// those of the same kind and period at its point.
+struct attractor_class {
+    bool is_late = false;  // found by the second search only
+    bool is_chaotic = false;
+    int period = 0;
+    int index = 0;
+
+    auto rank() const { return std::tuple(is_late, is_chaotic, period, index); }
+    bool operator<(const attractor_class& other) const { return rank() < other.rank(); }
+};
+
+/// Where one attractor stands in the search.
+struct place {
+    std::size_t point;
+    std::size_t attractor;
+};
+
+search_limits limits_of(const scene& scene, std::size_t n_points) {
+    search_limits limits;
+    limits.returns = std::max(limits.returns, scene.question.returns);
+    limits.longest_period = static_cast<int>(scene.question.number("longest_period", 64.0));
+    limits.wants_unstable = n_points == 1;
+    return limits;
+}
+
+std::size_t samples_of(const scene& scene, std::size_t n_points) {
+    const double wanted = scene.question.number("samples", 0.0);
+    if (wanted > 0.0) return static_cast<std::size_t>(wanted);
+    return n_points == 1 ? 512 : 32;
+}
+
+/// Typical size of every column: the spread of the starts' first images.
+std::vector<double> scale_of(const map_point& map, int section, std::span<const double> starts) {
+    const settled_orbits images = settle(map, section, starts, 1);
+    const auto n = static_cast<std::size_t>(images.n_columns);
+    std::vector<double> scale(n, 0.0);
+    for (std::size_t c = 0; c < n; ++c) {
+        double lowest = unbounded;
+        double highest = -unbounded;
+        double size = 0.0;
+        for (std::size_t i = 0; i < images.size(); ++i) {
+            const double x = images.state_of(i)[c];
+            if (images.end_of(i) != outcome::ok || !std::isfinite(x)) continue;
+            lowest = std::min(lowest, x);
+            highest = std::max(highest, x);
+            size = std::max(size, std::abs(x));
+        }
+        scale[c] = std::max(highest > lowest ? highest - lowest : 0.0, 1e-3 * size);
+        if (!(scale[c] > 0.0)) scale[c] = 1.0;
+    }
+    return scale;
+}
+
+/// Axes over which attractors change.
+std::vector<std::size_t> axes_of_points(const scene& scene) {
+    std::vector<std::size_t> axes = parameter_axes(scene);
+    const bool is_direct = &scene.start_section() == &scene.end_section();
+    if (!is_direct) return axes;
+    const plan_points points(scene, axes);
+    constexpr std::size_t n_samples = 64;
+    const std::vector<int> conserved =
+        conserved_everywhere(points.map_at(0), points.starts_at(0, n_samples));
+    for (std::size_t axis = 0; axis < scene.axes.size(); ++axis) {
+        const bool is_conserved = scene.axes[axis].kind == axis_kind::column &&
+                                  std::find(conserved.begin(), conserved.end(),
+                                            scene.axes[axis].index) != conserved.end();
+        if (is_conserved) axes.push_back(axis);
+    }
+    std::sort(axes.begin(), axes.end());
+    return axes;
+}
+
+std::map<std::size_t, std::vector<double>> starts_by_point(const scene& scene,
+                                                           const plan_points& points,
+                                                           std::span<const std::uint64_t> cells) {
+    std::map<std::size_t, std::vector<double>> starts;
+    for (const std::uint64_t cell : cells) {
+        const std::vector<std::uint64_t> coordinates = coordinates_of(scene, cell);
+        const cell_start start = start_of(scene, coordinates);
+        auto& at = starts[points.point_of(coordinates)];
+        at.insert(at.end(), start.columns.begin(), start.columns.end());
+    }
+    return starts;
+}
+
+/// The classes of a point's attractors; those from `n_early` on are late.
+std::vector<attractor_class> classes_at(const attractor_search& found) {
+    std::vector<attractor_class> classes;
+    std::map<std::tuple<bool, bool, int>, int> seen;
+    for (const found_attractor& attractor : found.attractors) {
+        attractor_class next{attractor.is_late, attractor.kind == attractor_kind::chaotic,
+                             attractor.period, 0};
+        next.index = ++seen[{next.is_late, next.is_chaotic, next.period}];
+        classes.push_back(next);
+    }
+    return classes;
+}
+
+std::string name_of(const attractor_class& of, bool is_only) {
+    std::string name = of.is_chaotic    ? "chaotic"
+                       : of.period == 1 ? "fixed point"
+                                        : fmt::format("period {}", of.period);
+    if (is_only && !of.is_late) return name;
+    const int index = of.index;
+    if (of.is_late) return fmt::format("{} (late {})", name, index);
+    return of.period == 1 ? fmt::format("{} {}", name, index) : fmt::format("{} ({})", name, index);
+}
+
+std::string trap_text(const found_attractor& found, std::size_t point, bool has_points) {
+    std::string text;
+    if (found.kind == attractor_kind::chaotic) {
+        text = fmt::format("boxes over sampled states; exponent {:.6g} +- {:.2g} per return",
+                           found.exponent, found.exponent_error);
+    } else if (found.traps.empty()) {
+        text = "none: too weakly attracting";
+    } else {
+        text =
+            fmt::format("{} ellipsoid{}, contraction {}", found.traps.size(),
+                        found.traps.size() == 1 ? "" : "s",
+                        found.is_proved ? "proved by enclosures" : "checked by exact derivatives");
+    }
+    return has_points ? fmt::format("{}; at parameter point {}", text, point) : text;
+}
+
+void set_multipliers(attractor_row& row, std::span<const std::complex<double>> multipliers) {
+    for (const std::complex<double>& multiplier : multipliers) {
+        row.multipliers_real.push_back(multiplier.real());
+        row.multipliers_imaginary.push_back(multiplier.imag());
+    }
+}
+
+/// A chaotic set has its largest exponent in the place of multipliers.
+attractor_row row_of(const found_attractor& found) {
+    attractor_row row;
+    row.period = found.period;
+    row.points = found.points;
+    set_multipliers(row, found.multipliers);
+    if (found.kind == attractor_kind::chaotic) {
+        row.multipliers_real = {found.exponent};
+        row.multipliers_imaginary = {0.0};
+    }
+    return row;
+}
+
+attractor_row row_of(const periodic_orbit& orbit) {
+    attractor_row row;
+    row.name = orbit.period == 1 ? "fixed point" : fmt::format("period {}", orbit.period);
+    row.period = orbit.period;
+    row.points = orbit.points;
+    set_multipliers(row, orbit.multipliers);
+    return row;
+}
+
+bool ends_at_rest(const model_info& info) {
+    return std::any_of(info.outcomes.begin(), info.outcomes.end(),
+                       [](outcome end) { return end == outcome::stuck || end == outcome::rest; });
+}
+
+/// Labels that the model gives by itself: its certificate's, or only the resting state.
+void add_own_labels(const scene& scene, label_plan& plan) {
+    constexpr int most_listed = 64;
+    label_description text;
+    if (scene.model->describe_label != nullptr) {
+        for (int label = 1; label <= most_listed && scene.model->describe_label(label, text);
+             ++label) {
+            attractor_row row{.label = label,
+                              .name = text.index < 0 ? std::string(text.kind)
+                                                     : fmt::format("{} {}", text.kind, text.index),
+                              .period = text.period};
+            row.trap = text.trap;
+            plan.attractors.push_back(std::move(row));
+            text = {};
+        }
+    } else if (ends_at_rest(scene.info())) {
+        plan.attractors.push_back(
+            {.label = 1, .name = "rest", .period = 1, .trap = "ends stuck or at rest"});
+    }
+    if (!plan.attractors.empty()) plan.died_label = 1;
+}
+
+class label_table {
+public:
+    label_table(const found_everywhere& found, label_plan& plan) : found_(found), plan_(plan) {
+        for (std::size_t point = 0; point < found.at.size(); ++point) {
+            classes_.push_back(classes_at(found.at[point]));
+            for (std::size_t i = 0; i < classes_[point].size(); ++i) {
+                examples_.try_emplace(classes_[point][i], place{point, i});
+            }
+        }
+        int label = plan.attractors.empty() ? 0 : plan.attractors.back().label;
+        for (const auto& [of, example] : examples_) labels_[of] = ++label;
+    }
+
+    void fill() {
+        add_rows();
+        std::size_t most = 0;
+        for (const attractor_search& at : found_.at) most = std::max(most, n_traps(at));
+        trap_ellipsoid nothing{};  // holds no state: its square is never below 1
+        nothing.n_columns = 1;
+        nothing.shape[0] = std::nan("");
+        plan_.n_ellipsoids = static_cast<int>(most);
+        plan_.ellipsoids.assign(most * found_.at.size(), nothing);
+        for (std::size_t point = 0; point < found_.at.size(); ++point) fill_point(point, most);
+    }
+
+private:
+    static std::size_t n_traps(const attractor_search& at) {
+        std::size_t n = 0;
+        for (const found_attractor& attractor : at.attractors) n += attractor.traps.size();
+        return n;
+    }
+
+    void fill_point(std::size_t point, std::size_t most) {
+        std::size_t slot = point * most;
+        const auto& attractors = found_.at[point].attractors;
+        for (std::size_t i = 0; i < attractors.size(); ++i) {
+            const int label = labels_.at(classes_[point][i]);
+            for (trap_ellipsoid trap : attractors[i].traps) {
+                trap.label = label;
+                plan_.ellipsoids[slot++] = trap;
+            }
+            if (attractors[i].kind != attractor_kind::chaotic) continue;
+            plan_.chaotic.push_back({point, static_cast<std::int16_t>(label), attractors[i].cover});
+        }
+    }
+
+    void add_rows() {
+        std::map<std::tuple<bool, int>, int> n_alike;
+        for (const auto& [of, example] : examples_) ++n_alike[{of.is_chaotic, of.period}];
+        for (const auto& [of, example] : examples_) {
+            const found_attractor& found = found_.at[example.point].attractors[example.attractor];
+            attractor_row row = row_of(found);
+            row.label = labels_.at(of);
+            row.name = name_of(of, n_alike[{of.is_chaotic, of.period}] == 1);
+            row.trap = trap_text(found, example.point, found_.at.size() > 1);
+            plan_.attractors.push_back(std::move(row));
+        }
+        int next = 1;  // the first colour, grey, is for the resting state
+        for (attractor_row& row : plan_.attractors) {
+            const bool is_rest = row.label == plan_.died_label;
+            row.colour = colour_of(is_rest ? 1 : ++next);
+        }
+    }
+
+    const found_everywhere& found_;
+    label_plan& plan_;
+    std::vector<std::vector<attractor_class>> classes_;  // [point][attractor]
+    std::map<attractor_class, place> examples_;
+    std::map<attractor_class, int> labels_;
+};
+
+}  // namespace
+
+found_everywhere search_everywhere(const scene& scene, std::span<const std::uint64_t> searched) {
+    found_everywhere found{plan_points(scene, axes_of_points(scene)), {}};
+    const plan_points& points = found.points;
+    found.at.resize(points.size());
+    const search_limits limits = limits_of(scene, points.size());
+    const std::size_t n_samples = samples_of(scene, points.size());
+    const auto again = starts_by_point(scene, points, searched);
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t point = 0; point < points.size(); ++point) {
+        const map_point map = points.map_at(point);
+        const std::vector<double> starts = points.starts_at(point, n_samples);
+        const std::vector<double> scale = scale_of(map, scene.section, starts);
+        found.at[point] = search_attractors(map, scene.section, starts, scale, limits);
+        const auto more = again.find(point);
+        if (more == again.end()) continue;
+        search_limits thorough = limits;
+        thorough.returns *= 4;
+        thorough.longest_period *= 4;
+        found.at[point] = search_attractors(map, scene.section, more->second, scale, thorough,
+                                            std::move(found.at[point].attractors));
+    }
+    return found;
+}
+
+label_plan plan_by_search(const scene& scene, std::span<const std::uint64_t> searched) {
+    const found_everywhere found = search_everywhere(scene, searched);
+    label_plan plan;
+    plan.decided_by = decision::ellipsoids;
+    plan.point_axes = found.points.axes();
+    plan.searched.assign(searched.begin(), searched.end());
+    for (const column_info& column : scene.end_section().columns) {
+        plan.point_columns.emplace_back(column.name);
+    }
+    add_own_labels(scene, plan);
+    label_table(found, plan).fill();
+    if (found.at.size() == 1) {
+        for (const periodic_orbit& orbit : found.at[0].unstable) {
+            plan.unstable.push_back(row_of(orbit));
+        }
+    }
+    return plan;
+}
+
+}  // namespace hopscotch

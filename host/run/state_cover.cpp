@@ -1,0 +1,70 @@
+// Boxes of equal number along every column, two to spare on each side.
+#include "host/run/state_cover.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hopscotch {
+namespace {
+
+constexpr std::uint64_t outside = ~std::uint64_t{0};
+
+std::uint64_t boxes_for(int n_columns) {
+    if (n_columns == 1) return 1024;
+    return n_columns == 2 ? 128 : 32;
+}
+
+}  // namespace
+
+state_cover::state_cover(std::span<const double> samples, int n_columns)
+    : n_columns_(n_columns), boxes_along_(boxes_for(n_columns)) {
+    const auto n = static_cast<std::size_t>(n_columns);
+    lowest_.assign(samples.begin(), samples.begin() + n_columns);
+    highest_ = lowest_;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        lowest_[i % n] = std::min(lowest_[i % n], samples[i]);
+        highest_[i % n] = std::max(highest_[i % n], samples[i]);
+    }
+    std::uint64_t n_shifts = 1;
+    for (int c = 0; c < n_columns; ++c) n_shifts *= 3;
+    std::vector<int> shift(n);
+    for (std::size_t i = 0; i < samples.size(); i += n) {
+        for (std::uint64_t s = 0; s < n_shifts; ++s) {
+            std::uint64_t digits = s;
+            for (int& along : shift) {
+                along = static_cast<int>(digits % 3) - 1;
+                digits /= 3;
+            }
+            boxes_.push_back(box_of(samples.subspan(i, n), shift));
+        }
+    }
+    std::sort(boxes_.begin(), boxes_.end());
+    boxes_.erase(std::unique(boxes_.begin(), boxes_.end()), boxes_.end());
+}
+
+std::uint64_t state_cover::box_of(std::span<const double> state, std::span<const int> shift) const {
+    constexpr double spare = 2.0;
+    std::uint64_t key = 0;
+    for (std::size_t c = 0; c < state.size(); ++c) {
+        const double width = highest_[c] - lowest_[c];
+        double place = spare;
+        if (width > 0.0) {
+            place +=
+                std::floor((state[c] - lowest_[c]) / width * static_cast<double>(boxes_along_));
+        }
+        place += static_cast<double>(shift[c]);
+        const double along = static_cast<double>(boxes_along_) + 2.0 * spare + 1.0;
+        if (!(place >= 0.0 && place < along)) return outside;
+        key = key * static_cast<std::uint64_t>(along) + static_cast<std::uint64_t>(place);
+    }
+    return key;
+}
+
+bool state_cover::holds(std::span<const double> state) const {
+    if (boxes_.empty()) return false;
+    const std::vector<int> here(state.size(), 0);
+    const std::uint64_t box = box_of(state, here);
+    return box != outside && std::binary_search(boxes_.begin(), boxes_.end(), box);
+}
+
+}  // namespace hopscotch
