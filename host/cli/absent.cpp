@@ -17,8 +17,6 @@ struct absent_command {
 constexpr absent_command absent[] = {
     {"branch", "Continue periodic orbits over a parameter",
      "hopscotch run with question.kind = \"period\" and the parameter as an axis"},
-    {"analyse", "Entropy, boundary dimension and extents of a map",
-     "hopscotch info FILE.h5 for the shares"},
     {"bench", "Speed against error", "./hopscotch bench in a checkout"},
     {"merge", "Join maps", "hopscotch run --resume"},
 };
