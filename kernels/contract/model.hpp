@@ -17,6 +17,9 @@
 //       static progress<Real> step(lane<Real>&, mask_of<Real> active, Watch&);
 //       template <class Real> static void read_state(const lane<Real>&, int section, Real*
 //       columns); template <class Real> static void read_extras(const lane<Real>&, Real* extras);
+//       // optional: how many leading members of a lane `begin` derives from parameters and options
+//       // alone and nothing changes later; where no parameter varies they are not moved with a
+//       lane static constexpr int n_parameter_fields = 0;
 //       // optional: the model's own proof of where an orbit ends, for which scenes it labels every
 //       // attracted orbit, and what its labels are (false: no such label)
 //       template <int Variant, class Real> static Real certificate(const lane<Real>&);
@@ -96,6 +99,13 @@ concept can_be_read = requires(const typename Model::template lane<Real>& lane, 
 template <class Model, class Real>
 concept model = describes_itself<Model> && has_lane<Model, Real> && begins<Model, Real> &&
     steps<Model, Real> && can_be_read<Model, Real>;
+
+/// Leading members of a lane that follow from parameters and options alone.
+template <class Model>
+inline constexpr int parameter_fields_of = 0;
+template <class Model>
+requires requires { Model::n_parameter_fields; }
+inline constexpr int parameter_fields_of<Model> = Model::n_parameter_fields;
 
 /// A model that can prove where an orbit ends.
 template <class Model, class Real>

@@ -15,6 +15,8 @@ struct trajectory {
     Real returns;  // completed
     Real steps;    // of work since the last return
     Real busy;     // 1 while the lane holds an unfinished trajectory
+
+    static constexpr int n_parameter_fields = parameter_fields_of<Model>;
 };
 
 template <class Model, int Variant, class Real>
@@ -63,6 +65,10 @@ private:
             return;
 
         ended = select(spent & (ended == zero), code_of<Real>(outcome::budget), ended);
+        if (request_.decided_by == decision::returns && request_.died_label == 0) {
+            finish(at, cells, zero, ended, active & (full | !(ended == zero)));
+            return;
+        }
         Real label = zero;
         const bool asks_model = request_.decided_by == decision::certificate ||
                                 request_.decided_by == decision::ellipsoids;
@@ -87,10 +93,14 @@ private:
         const mask_of<Real> finished = active & (labelled | full | !(ended == zero));
         ended = select(labelled, code_of<Real>(outcome::attracted),
                        select(full & (ended == zero), at_limit, ended));
-        if (any(finished)) {
-            write(at, label, ended, cells, select(finished, one, zero));
-            at.busy = select(finished, zero, at.busy);
-        }
+        finish(at, cells, label, ended, finished);
+    }
+
+    HOPSCOTCH_DEVICE void finish(state& at, const std::uint64_t* cells, const Real& label,
+                                 const Real& ended, mask_of<Real> finished) {
+        if (!any(finished)) return;
+        write(at, label, ended, cells, finished);
+        at.busy = select(finished, Real(0.0), at.busy);
     }
 
     HOPSCOTCH_DEVICE void find_intervals(const state& at, const std::uint64_t* cells,
@@ -152,9 +162,9 @@ private:
 
     /// Writes the results of the lanes flagged, layer by layer.
     HOPSCOTCH_DEVICE void write(const state& at, const Real& label, const Real& ended,
-                                const std::uint64_t* cells, const Real& flags) const {
+                                const std::uint64_t* cells, mask_of<Real> where) const {
         const ensemble_request& to = request_;
-        const typename lanes::lane_list finished(flags, cells);
+        const typename lanes::lane_list finished(where, cells);
         finished.put(to.label, label);
         finished.put(to.outcome, ended);
         finished.put(to.returns, at.returns);

@@ -6,6 +6,7 @@
 #include "kernels/ensemble/request.hpp"
 #include "kernels/lanes/lane.hpp"
 
+#include <bit>
 #include <type_traits>
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
@@ -18,7 +19,8 @@ namespace hopscotch::inline HOPSCOTCH_TARGET {
 ///                     a step of the active lanes, then results of those that are finished.
 /// \tparam State     one lane's trajectory: only members made of Real, so that a lane is a column
 ///                   of doubles in memory. State::busy is 1 while a lane holds an unfinished
-///                   trajectory.
+///                   trajectory. Where it has a State::n_parameter_fields, that many leading
+///                   fields follow from the parameters and options alone.
 template <class Ensemble, class State, class Real>
 class refilled_lanes {
 public:
@@ -28,6 +30,7 @@ public:
     HOPSCOTCH_DEVICE lane_statistics run(std::uint64_t first, std::uint64_t last) {
         next_cell_ = first;
         last_cell_ = last;
+        first_moved_ = n_common_fields();
         lane_statistics statistics;
         now_.busy = Real(0.0);
         int n_busy = refill(0);
@@ -56,28 +59,27 @@ protected:
 
     /// The lanes whose results are to be written.
     struct lane_list {
-        int lanes[width];
-        int n = 0;
+        std::uint32_t bits;  // one per lane
         const std::uint64_t* cells;
 
+        HOPSCOTCH_DEVICE lane_list(mask_of<Real> where, const std::uint64_t* cells_of_lanes)
+            : bits(lane_bits(where)), cells(cells_of_lanes) {}
         HOPSCOTCH_DEVICE lane_list(const Real& flags, const std::uint64_t* cells_of_lanes)
-            : cells(cells_of_lanes) {
-            for (int lane = 0; lane < width; ++lane) {
-                lanes[n] = lane;
-                n += lanes_of(flags)[lane] > 0.0 ? 1 : 0;
-            }
-        }
+            : lane_list(flags > Real(0.0), cells_of_lanes) {}
+
         /// Writes one field of these lanes to a layer; a layer that is null is not wanted.
         template <class Number>
         HOPSCOTCH_DEVICE void put(Number* layer, const Real& field) const {
             if (layer == nullptr) return;
-            for (int i = 0; i < n; ++i) {
-                layer[cells[lanes[i]]] = static_cast<Number>(lanes_of(field)[lanes[i]]);
+            for (std::uint32_t left = bits; left != 0; left &= left - 1) {
+                const int lane = std::countr_zero(left);
+                layer[cells[lane]] = static_cast<Number>(lanes_of(field)[lane]);
             }
         }
     };
 
 private:
+    static constexpr std::uint32_t all_lanes = (std::uint64_t{1} << width) - 1;
     static constexpr int n_fields = static_cast<int>(sizeof(State) / sizeof(Real));
 
     std::uint64_t next_cell_ = 0;
@@ -86,6 +88,7 @@ private:
     State fresh_;  // prepared starts, taken lane by lane
     std::uint64_t cells_[width];
     std::uint64_t fresh_cells_[width];
+    int first_moved_ = 0;  // the fields before it hold the same numbers in every lane
     int fresh_first_ = 0;  // the next lane of fresh_ to take
     int fresh_left_ = 0;   // lanes of fresh_ not yet taken
 
@@ -103,19 +106,32 @@ private:
         }
         load(columns, request_.columns, most_columns);
         load(parameters, request_.parameters, most_parameters);
-        Real is_cell(0.0);
-        for (int lane = 0; lane < n; ++lane) lanes_of(is_cell)[lane] = 1.0;
+        mask_of<Real> exists;
+        set_lanes(exists, (std::uint64_t{1} << n) - 1);
+        const Real is_cell = select(exists, Real(1.0), Real(0.0));
         next_cell_ += static_cast<std::uint64_t>(n);
 
         self().begin(fresh_, fresh_cells_, columns, parameters, is_cell);
         gather_fresh();
+        Real* to = reinterpret_cast<Real*>(&now_);
+        const Real* from = reinterpret_cast<const Real*>(&fresh_);
+        for (int f = 0; f < first_moved_; ++f) to[f] = from[f];
+    }
+
+    /// The fields that follow from the parameters, where no parameter varies from cell to cell.
+    HOPSCOTCH_DEVICE int n_common_fields() const {
+        for (const column_source& parameter : request_.parameters) {
+            if (parameter.size > 1) return 0;
+        }
+        if constexpr (requires { State::n_parameter_fields; }) return State::n_parameter_fields;
+        return 0;
     }
 
     /// Moves the prepared starts that go on to the front of the pack.
     HOPSCOTCH_DEVICE void gather_fresh() {
         int kept = 0;
-        for (int lane = 0; lane < width; ++lane) {
-            if (!(lanes_of(fresh_.busy)[lane] > 0.0)) continue;
+        for (std::uint32_t left = lane_bits(fresh_.busy > Real(0.0)); left != 0; left &= left - 1) {
+            const int lane = std::countr_zero(left);
             if (kept < lane) {
                 double* fields = reinterpret_cast<double*>(&fresh_);
                 for (int f = 0; f < n_fields; ++f)
@@ -138,6 +154,16 @@ private:
             // the cells of a pack follow each other: one division for all of them
             std::uint64_t index = source[c].index(fresh_cells_[0]);
             std::uint64_t within = fresh_cells_[0] % source[c].stride;
+            constexpr auto all = static_cast<std::uint64_t>(width);
+            if (within + all <= source[c].stride) {
+                columns[c] = Real(source[c].values[index]);
+                continue;
+            }
+            if (source[c].stride == 1 && index + all <= source[c].size) {
+                const double* first = source[c].values + index;
+                for (int lane = 0; lane < width; ++lane) lanes_of(columns[c])[lane] = first[lane];
+                continue;
+            }
             for (int lane = 0; lane < width; ++lane) {
                 lanes_of(columns[c])[lane] = source[c].values[index];
                 if (++within < source[c].stride) continue;
@@ -163,16 +189,16 @@ private:
     /// Moves up to `wanted` prepared starts into idle lanes; returns how many.
     HOPSCOTCH_DEVICE int take_fresh(int wanted) {
         const int n = wanted < fresh_left_ ? wanted : fresh_left_;
-        Real chosen(0.0);  // the first n idle lanes
-        for (int lane = 0, taken = 0; taken < n; ++lane) {
-            if (lanes_of(now_.busy)[lane] > 0.0) continue;
-            lanes_of(chosen)[lane] = 1.0;
-            cells_[lane] = fresh_cells_[fresh_first_ + taken++];
-        }
-        const mask_of<Real> where = chosen > Real(0.0);
+        std::uint32_t chosen = all_lanes & ~lane_bits(now_.busy > Real(0.0));
+        std::uint32_t beyond = chosen;  // idle lanes after the first n
+        for (int i = 0; i < n && n < wanted; ++i) beyond &= beyond - 1;
+        if (n < wanted) chosen &= ~beyond;
+        mask_of<Real> where;
+        set_lanes(where, chosen);
+        fill_lanes(cells_, where, fresh_cells_ + fresh_first_);
         Real* to = reinterpret_cast<Real*>(&now_);
         const Real* from = reinterpret_cast<const Real*>(&fresh_);
-        for (int f = 0; f < n_fields; ++f)
+        for (int f = first_moved_; f < n_fields; ++f)
             fill_lanes(to[f], where, lanes_of(from[f]) + fresh_first_);
         fresh_first_ += n;
         fresh_left_ -= n;

@@ -12,7 +12,7 @@ namespace hopscotch::inline HOPSCOTCH_TARGET {
 template <binary64_lane Real, int Size>
 HOPSCOTCH_DEVICE inline Real lookup(const double (&table)[Size], const Real& index) {
     if constexpr (width_of < Real >> 1) {
-        return gather(static_cast<const double*>(table), index);
+        return gather(table, index);
     } else {
         return table[static_cast<int>(index)];
     }

@@ -63,11 +63,18 @@ HOPSCOTCH_DEVICE inline bool has_bit(double x) {
     return ((std::bit_cast<std::uint64_t>(x) >> Bit) & 1u) != 0;
 }
 
+/// One bit per lane.
+HOPSCOTCH_DEVICE inline std::uint32_t lane_bits(bool mask) { return mask ? 1u : 0u; }
+/// The lanes whose bits are set.
+HOPSCOTCH_DEVICE inline void set_lanes(bool& mask, std::uint64_t bits) { mask = (bits & 1u) != 0; }
 /// Puts consecutive doubles of `from` into the lanes where the mask is set, in order; returns how
 /// many.
 HOPSCOTCH_DEVICE inline int fill_lanes(double& to, bool where, const double* from) {
     if (where) to = *from;
     return where ? 1 : 0;
+}
+HOPSCOTCH_DEVICE inline void fill_lanes(std::uint64_t* to, bool where, const std::uint64_t* from) {
+    if (where) *to = *from;
 }
 /// Number of set lanes.
 HOPSCOTCH_DEVICE inline int count(bool mask) { return mask ? 1 : 0; }

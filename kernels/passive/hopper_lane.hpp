@@ -8,6 +8,9 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET::passive {
 
+/// Leading members of a lane that follow from the parameters alone.
+inline constexpr int n_parameter_fields = 7;
+
 template <class Real>
 struct hopper_lane {
     // parameters and what follows from them
@@ -27,13 +30,16 @@ struct hopper_lane {
     Real centre_cosine;
     Real beta;
 
-    // the flight about to be computed: launch from the ground with y1 = 1 + eta, v1 = flight.centre
-    // + flight.offset and gap rate `rebound` (0 unless restitution lets the foot rebound)
-    launch<Real> flight;
+    // the flight about to be computed: a lift-off from the section state, or a bounce from the
+    // ground with y1 = 1 + eta, v1 = velocity and gap rate `rebound` (0 unless restitution lets the
+    // foot rebound). A damped spring lifts off at eta = -2 zeta alpha.
+    Real is_bounce;
+    Real eta;
+    Real velocity;
     Real rebound;
 
     // energy bookkeeping of the current return
-    Real energy;       // alpha^2 at its start, or its equivalent for a flight start
+    Real energy;       // of a flight start, as alpha^2 of a lift-off
     Real loss;         // what impacts took from it so far
     Real from_flight;  // 1 while the first return of a flight start is under way
 
@@ -89,20 +95,25 @@ HOPSCOTCH_DEVICE inline void set_distance(hopper_lane<Real>& lane, Real beta,
     lane.beta = select(wanted, shifted, lane.beta);
 }
 
-/// Prepares the flight that follows the section state.
+/// How the next flight leaves the ground.
 template <class Real>
+HOPSCOTCH_DEVICE inline launch<Real> launch_of(const hopper_lane<Real>& lane) {
+    const mask_of<Real> bounces = lane.is_bounce > Real(0.0);
+    return {select(bounces, Real(0.0), lane.centre), select(bounces, Real(1.0), lane.centre_cosine),
+            select(bounces, lane.velocity, lane.beta), lane.eta};
+}
+
+/// Prepares the flight that follows the section state.
+template <bool Damped = true, class Real>
 HOPSCOTCH_DEVICE inline void launch_from_section(hopper_lane<Real>& lane, mask_of<Real> wanted) {
-    const Real alpha = lift_off_speed(lane);
-    lane.flight.centre = select(wanted, lane.centre, lane.flight.centre);
-    lane.flight.cosine = select(wanted, lane.centre_cosine, lane.flight.cosine);
-    lane.flight.offset = select(wanted, lane.beta, lane.flight.offset);
-    // a damped spring lifts off at y1 = 1 - 2 zeta alpha
-    const Real eta = Real(0.0) - Real(2.0) * lane.damping * alpha;
-    lane.flight.eta = select(wanted, eta, lane.flight.eta);
-    lane.rebound = select(wanted, Real(0.0), lane.rebound);
-    lane.energy = select(wanted, alpha * alpha, lane.energy);
-    lane.loss = select(wanted, Real(0.0), lane.loss);
-    lane.from_flight = select(wanted, Real(0.0), lane.from_flight);
+    const Real zero(0.0);
+    Real eta = zero;
+    if constexpr (Damped) eta = zero - Real(2.0) * lane.damping * lift_off_speed(lane);
+    lane.is_bounce = select(wanted, zero, lane.is_bounce);
+    lane.eta = select(wanted, eta, lane.eta);
+    lane.rebound = select(wanted, zero, lane.rebound);
+    lane.loss = select(wanted, zero, lane.loss);
+    lane.from_flight = select(wanted, zero, lane.from_flight);
 }
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET::passive

@@ -75,10 +75,9 @@ struct variant_type<3> {
     using type = damped;
 };
 
-/// A lane with the parameters set and everything else at its neutral value.
+/// Sets a lane's parameters and everything else to its neutral value.
 template <class Real>
-HOPSCOTCH_DEVICE inline hopper_lane<Real> lane_with(const Real* parameter) {
-    hopper_lane<Real> lane;
+HOPSCOTCH_DEVICE inline void clear_lane(hopper_lane<Real>& lane, const Real* parameter) {
     const Real mass = parameter[mass_ratio];
     const Real zero(0.0);
     const Real one(1.0);
@@ -91,10 +90,9 @@ HOPSCOTCH_DEVICE inline hopper_lane<Real> lane_with(const Real* parameter) {
     lane.increment = parameter[speed_increment];
     lane.cell = lane.centre = lane.centre_low = lane.beta = zero;
     lane.centre_cosine = one;
-    lane.flight = {zero, one, zero, zero};
-    lane.rebound = lane.energy = lane.loss = lane.from_flight = lane.trapped = zero;
+    lane.is_bounce = lane.eta = lane.velocity = lane.rebound = zero;
+    lane.energy = lane.loss = lane.from_flight = lane.trapped = zero;
     lane.time = lane.events = lane.bounces = lane.total_loss = zero;
-    return lane;
 }
 
 template <class Real>
@@ -171,6 +169,7 @@ HOPSCOTCH_DEVICE inline progress<Real> begin_anywhere(hopper_lane<Real>& lane,
 template <class Coordinates>
 struct model {
     static constexpr int n_variants = 4;
+    static constexpr int n_parameter_fields = passive::n_parameter_fields;
     static int variant(const variant_query& scene) { return variant_for(scene); }
     static constexpr std::string_view refusal(const double*, const int*) { return {}; }
 
@@ -180,7 +179,7 @@ struct model {
     template <int Variant, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> begin(lane<Real>& lane, int section, const Real* columns,
                                                  const Real* parameter, const int*, Watch& watch) {
-        lane = lane_with(parameter);
+        clear_lane(lane, parameter);
         reporter<Coordinates, Watch> report{watch};
         progress<Real> done =
             section == 0

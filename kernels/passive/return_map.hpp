@@ -41,9 +41,9 @@ struct landing {
 /// Flight from a launch on the ground without rebound, by the half flight time.
 template <class Real>
 HOPSCOTCH_DEVICE inline landing<Real> land_from_contact(const hopper_lane<Real>& lane,
+                                                        const launch<Real>& from,
                                                         mask_of<Real> is_bounce,
                                                         mask_of<Real> wanted) {
-    const launch<Real>& from = lane.flight;
     const half_flight_terms<Real> at = first_contact(from, lane.cell, is_bounce, wanted);
     const Real slope = Real(2.0) * at.r / at.q;
     return {at.x * Real(2.0), fma(at.x * at.sine, slope, from.eta),
@@ -81,10 +81,11 @@ HOPSCOTCH_DEVICE inline flight_result<Damped, Real> land_from(const free_flight<
 /// The flow of a flight that starts on the ground with the foot rebounding at `rebound`.
 template <bool Damped, class Real>
 HOPSCOTCH_DEVICE inline free_flight<Damped, Real> rebound_flow(const hopper_lane<Real>& lane) {
-    const Real speed = lane.flight.centre + lane.flight.offset;
+    const launch<Real> from = launch_of(lane);
+    const Real speed = from.centre + from.offset;
     const Real frequency = Damped ? sqrt(fma(-lane.damping, lane.damping, Real(1.0))) : Real(1.0);
-    return {{Real(1.0) + lane.flight.eta, fma(-lane.rebound, lane.inverse_total, speed),
-             lane.damping, frequency},
+    return {{Real(1.0) + from.eta, fma(-lane.rebound, lane.inverse_total, speed), lane.damping,
+             frequency},
             Real(0.0),
             lane.rebound};
 }
@@ -115,10 +116,9 @@ inline constexpr double falling_part = 0.52;
 template <class Real>
 HOPSCOTCH_DEVICE inline void launch_bounce(hopper_lane<Real>& lane, Real eta, Real velocity,
                                            Real rebound, mask_of<Real> wanted) {
-    lane.flight.centre = select(wanted, Real(0.0), lane.flight.centre);
-    lane.flight.cosine = select(wanted, Real(1.0), lane.flight.cosine);
-    lane.flight.offset = select(wanted, velocity, lane.flight.offset);
-    lane.flight.eta = select(wanted, eta, lane.flight.eta);
+    lane.is_bounce = select(wanted, Real(1.0), lane.is_bounce);
+    lane.velocity = select(wanted, velocity, lane.velocity);
+    lane.eta = select(wanted, eta, lane.eta);
     lane.rebound = select(wanted, rebound, lane.rebound);
 }
 
@@ -127,7 +127,7 @@ HOPSCOTCH_DEVICE inline void launch_bounce(hopper_lane<Real>& lane, Real eta, Re
 /// \param speed     f(alpha) before the increment
 /// \param distance  the same as distance from the lane's lossless point (exact next to it)
 /// \return          lanes whose lift-off speed is not above zero: no further hop
-template <class Real>
+template <class Variant, class Real>
 HOPSCOTCH_DEVICE inline mask_of<Real> lift_off(hopper_lane<Real>& lane, Real speed, Real distance,
                                                mask_of<Real> wanted) {
     const mask_of<Real> dies = wanted & (speed + lane.increment <= Real(0.0));
@@ -135,7 +135,7 @@ HOPSCOTCH_DEVICE inline mask_of<Real> lift_off(hopper_lane<Real>& lane, Real spe
     const mask_of<Real> is_new = lifts & (lane.from_flight > Real(0.0));
     set_distance(lane, distance + lane.increment, lifts & !is_new);
     if (any(is_new)) set_lift_off_speed(lane, speed + lane.increment, is_new);
-    launch_from_section(lane, lifts);
+    launch_from_section<Variant::is_damped>(lane, lifts);
     return dies;
 }
 
@@ -157,11 +157,11 @@ HOPSCOTCH_DEVICE inline contact_end<Real> end_of_contact(const hopper_lane<Real>
             lift_off_damped(start, lane.damping, lane.mu, lane.inverse_mass, wanted);
         return {end.found, end.duration, end.speed, (end.speed - lane.centre) - lane.centre_low};
     } else {
-        const Real remaining = lane.energy - lane.loss;
-        const mask_of<Real> lifts = wanted & (remaining > Real(0.0));
         const Real alpha = lift_off_speed(lane);
-        const Real rough = sqrt(select(lifts, remaining, Real(1.0)));
         const mask_of<Real> is_new = lane.from_flight > Real(0.0);
+        const Real remaining = select(is_new, lane.energy, alpha * alpha) - lane.loss;
+        const mask_of<Real> lifts = wanted & (remaining > Real(0.0));
+        const Real rough = sqrt(select(lifts, remaining, Real(1.0)));
         const Real drop = lane.loss / (alpha + rough);  // alpha - f without cancellation (H2)
         const Real speed = select(is_new, rough, alpha - drop);
         const Real duration = Variant::is_timed
@@ -225,8 +225,8 @@ HOPSCOTCH_DEVICE inline progress<Real> land(hopper_lane<Real>& lane, const landi
     // decided means contact from the start in a flight start, which proves nothing about its
     // lift-off
     const mask_of<Real> was_lift_off = decided & !(lane.from_flight > zero);
-    const launch<Real> from = lane.flight;
     const Real cell = lane.cell;
+    const Real old_centre = lane.centre;  // of the lift-off, where was_lift_off
     const Real old_beta = lane.beta;
     if constexpr (Watch::is_active) {
         if (active) watch.impact(lane, eta, velocity, end.gap_rate, rebound, lost, contact);
@@ -246,13 +246,14 @@ HOPSCOTCH_DEVICE inline progress<Real> land(hopper_lane<Real>& lane, const landi
         lane.events = select(after.lifts, lane.events + one, lane.events);
         const mask_of<Real> stays = contact & was_lift_off & (after.distance >= zero) &
                                     (old_beta >= zero) & (lane.increment == zero);
-        const mask_of<Real> dies = lift_off(lane, after.speed, after.distance, after.lifts);
+        const mask_of<Real> dies =
+            lift_off<Variant>(lane, after.speed, after.distance, after.lifts);
         returned = after.lifts & !dies;
         ended = select(contact & !returned, code_of<Real>(outcome::stuck), zero);
         if constexpr (!Variant::has_rebound) {
             // at M = infinity nothing is lost and nothing is attracted
             const mask_of<Real> in_trap = stays & (lane.kappa > zero) &
-                                          ((lane.kappa <= least_escaping_kappa(from.centre)) |
+                                          ((lane.kappa <= least_escaping_kappa(old_centre)) |
                                            (old_beta <= Real(falling_part)));
             lane.trapped = select(returned, select(in_trap, cell + one, zero), lane.trapped);
         }
@@ -268,12 +269,10 @@ template <class Variant, class Real, class Watch>
 HOPSCOTCH_DEVICE inline progress<Real> fly_and_land(hopper_lane<Real>& lane, mask_of<Real> active,
                                                     Watch& watch) {
     const Real zero(0.0);
-    const mask_of<Real> is_bounce = (lane.flight.eta > zero) |
-                                    ((lane.flight.centre == zero) & (lane.cell > zero)) |
-                                    (lane.rebound > zero);
+    const mask_of<Real> is_bounce = lane.is_bounce > zero;
+    const launch<Real> from = launch_of(lane);
     // alpha = 0 is the resting state: no flight, no further hop
-    const mask_of<Real> at_rest =
-        active & !is_bounce & (lane.flight.centre + lane.flight.offset == zero);
+    const mask_of<Real> at_rest = active & !is_bounce & (from.centre + from.offset == zero);
     const mask_of<Real> flies = active & !at_rest;
     progress<Real> result;
     if constexpr (Variant::is_damped) {
@@ -289,7 +288,7 @@ HOPSCOTCH_DEVICE inline progress<Real> fly_and_land(hopper_lane<Real>& lane, mas
     } else {
         const mask_of<Real> by_rebound = flies & (lane.rebound > zero);
         const mask_of<Real> from_contact = flies & !by_rebound;
-        landing<Real> end = land_from_contact(lane, is_bounce, from_contact);
+        landing<Real> end = land_from_contact(lane, from, is_bounce, from_contact);
         mask_of<Real> found = flies;
         if constexpr (Variant::has_rebound) {
             if (any(by_rebound)) {
@@ -303,7 +302,7 @@ HOPSCOTCH_DEVICE inline progress<Real> fly_and_land(hopper_lane<Real>& lane, mas
         const mask_of<Real> is_lift_off = from_contact & !is_bounce;
         mask_of<Real> decided = is_lift_off;
         if constexpr (Variant::has_rebound) decided = is_lift_off & (end.gap_rate == zero);
-        result = land<Variant>(lane, end, decided, lane.flight.offset >= zero, flies, flies, watch);
+        result = land<Variant>(lane, end, decided, from.offset >= zero, flies, flies, watch);
         result.ended =
             select(flies & !found, code_of<Real>(outcome::unresolved_event), result.ended);
         result.returned = result.returned & found;

@@ -15,7 +15,7 @@ struct hand_stepped {
     /// alpha = alpha*_k + beta.
     hand_stepped(int k, double beta, double mass_ratio, double increment = 0.0) {
         const double parameters[] = {mass_ratio, 0.0, 0.0, increment, 0.0, 0.0, 0.0};
-        lane = passive::lane_with(parameters);
+        passive::clear_lane(lane, parameters);
         passive::enter_cell(lane, static_cast<double>(k), true);
         lane.beta = beta;
         passive::launch_from_section(lane, true);

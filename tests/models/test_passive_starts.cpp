@@ -107,7 +107,7 @@ TEST(passive_starts, foot_moving_down_on_the_ground_strikes_first) {
     EXPECT_EQ(off.end, same.end);
     EXPECT_NEAR(off.speed, same.speed, 1e-13);
     EXPECT_EQ(off.bounces, same.bounces + 1.0);
-    EXPECT_NEAR(off.loss, same.loss + 4.0, 4e-15);
+    EXPECT_NEAR(off.loss, same.loss + 4.0, 1e-14);  // two flights, some roundings apart
 }
 
 TEST(passive_starts, foot_moving_up_on_the_ground_flies) {
