@@ -141,7 +141,8 @@ private:
         }
         for (std::size_t i = 0; i < orbit.points.size(); i += n_) {
             const trap_site site{state(orbit.points).subspan(i, n_), orbit.period, free_, scale};
-            if (const auto trap = checked_trap(map_, site)) found.traps.push_back(*trap);
+            if (const auto trap = checked_trap(map_, site, limits_.is_quick))
+                found.traps.push_back(*trap);
         }
         found.is_proved = false;
         found.is_late = is_late_;
@@ -227,8 +228,8 @@ private:
         for (std::size_t i = 0; i < n_open() && n_failed < limits_.most_attempts; ++i) {
             const std::vector<double> x = open_state(i);
             if (is_covered(x)) continue;
-            constexpr int n_blocks = 32;
-            constexpr int block = 64;
+            const int n_blocks = limits_.is_quick ? 16 : 32;
+            const int block = limits_.is_quick ? 32 : 64;
             const orbit_exponents exponents = exponents_of(map_, x, free_, n_blocks, block);
             if (!exponents.is_chaotic()) {
                 ++n_failed;
@@ -251,7 +252,7 @@ private:
 
     /// Samples the set that an orbit fills, from many of its states at once.
     std::vector<double> samples_from(const orbit_exponents& exponents) const {
-        constexpr int n_returns = 640;
+        const int n_returns = limits_.is_quick ? 64 : 640;
         std::vector<double> samples;
         std::vector<double> at = exponents.visited;
         for (int i = 0; i < n_returns; ++i) {

@@ -39,6 +39,7 @@ struct search_limits {
     int longest_period = 64;
     int most_attempts = 64;  // orbits looked at that turn out to be nothing new
     bool wants_unstable = false;
+    bool is_quick = false;  // for many points: traps and samples need not be as large as can be
 };
 
 struct attractor_search {

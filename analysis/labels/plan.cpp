@@ -4,6 +4,8 @@
 #include "analysis/labels/interval_trap.hpp"
 #include "analysis/labels/label_colours.hpp"
 #include "analysis/labels/one_sided.hpp"
+#include "analysis/labels/period_plan.hpp"
+#include "analysis/labels/point_search.hpp"
 #include "analysis/labels/searched_plan.hpp"
 #include "host/scene/grid.hpp"
 
@@ -211,7 +213,10 @@ label_plan plan_labels(const scene& scene, std::span<const std::uint64_t> search
                               true};
     const bool is_certain =
         scene.model->certificate_covers && scene.model->certificate_covers(query);
-    if (!is_certain && !scene.model->branch) return plan_by_search(scene, searched);
+    if (!is_certain && !scene.model->branch) {
+        const bool is_by_period = scene.question.kind == "period" && !axes_of_points(scene).empty();
+        return is_by_period ? plan_by_period(scene) : plan_by_search(scene, searched);
+    }
     label_plan plan = is_certain ? plan_by_certificate(scene) : plan_by_intervals(scene);
     if (scene.question.kind == "one_sided" && scene.model->branch) {
         add_immediate_basins(scene, plan);

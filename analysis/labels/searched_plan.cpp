@@ -1,9 +1,9 @@
 // From the attractors found at every parameter point to one table of labels.
 #include "analysis/labels/searched_plan.hpp"
 
-#include "analysis/attractors/settle.hpp"
 #include "analysis/labels/label_colours.hpp"
-#include "analysis/labels/plan.hpp"
+#include "analysis/labels/own_labels.hpp"
+#include "analysis/labels/point_search.hpp"
 #include "host/scene/grid.hpp"
 
 #include <fmt/format.h>
@@ -33,61 +33,6 @@ struct place {
     std::size_t point;
     std::size_t attractor;
 };
-
-search_limits limits_of(const scene& scene, std::size_t n_points) {
-    search_limits limits;
-    limits.returns = std::max(limits.returns, scene.question.returns);
-    limits.longest_period = static_cast<int>(scene.question.number("longest_period", 64.0));
-    limits.wants_unstable = n_points == 1;
-    return limits;
-}
-
-std::size_t samples_of(const scene& scene, std::size_t n_points) {
-    const double wanted = scene.question.number("samples", 0.0);
-    if (wanted > 0.0) return static_cast<std::size_t>(wanted);
-    return n_points == 1 ? 512 : 32;
-}
-
-/// Typical size of every column: the spread of the starts' first images.
-std::vector<double> scale_of(const map_point& map, int section, std::span<const double> starts) {
-    const settled_orbits images = settle(map, section, starts, 1);
-    const auto n = static_cast<std::size_t>(images.n_columns);
-    std::vector<double> scale(n, 0.0);
-    for (std::size_t c = 0; c < n; ++c) {
-        double lowest = unbounded;
-        double highest = -unbounded;
-        double size = 0.0;
-        for (std::size_t i = 0; i < images.size(); ++i) {
-            const double x = images.state_of(i)[c];
-            if (images.end_of(i) != outcome::ok || !std::isfinite(x)) continue;
-            lowest = std::min(lowest, x);
-            highest = std::max(highest, x);
-            size = std::max(size, std::abs(x));
-        }
-        scale[c] = std::max(highest > lowest ? highest - lowest : 0.0, 1e-3 * size);
-        if (!(scale[c] > 0.0)) scale[c] = 1.0;
-    }
-    return scale;
-}
-
-/// Axes over which attractors change.
-std::vector<std::size_t> axes_of_points(const scene& scene) {
-    std::vector<std::size_t> axes = parameter_axes(scene);
-    const bool is_direct = &scene.start_section() == &scene.end_section();
-    if (!is_direct) return axes;
-    const plan_points points(scene, axes);
-    constexpr std::size_t n_samples = 64;
-    const std::vector<int> conserved =
-        conserved_everywhere(points.map_at(0), points.starts_at(0, n_samples));
-    for (std::size_t axis = 0; axis < scene.axes.size(); ++axis) {
-        const bool is_conserved = scene.axes[axis].kind == axis_kind::column &&
-                                  std::find(conserved.begin(), conserved.end(),
-                                            scene.axes[axis].index) != conserved.end();
-        if (is_conserved) axes.push_back(axis);
-    }
-    std::sort(axes.begin(), axes.end());
-    return axes;
-}
 
 std::map<std::size_t, std::vector<double>> starts_by_point(const scene& scene,
                                                            const plan_points& points,
@@ -168,33 +113,6 @@ attractor_row row_of(const periodic_orbit& orbit) {
     row.points = orbit.points;
     set_multipliers(row, orbit.multipliers);
     return row;
-}
-
-bool ends_at_rest(const model_info& info) {
-    return std::any_of(info.outcomes.begin(), info.outcomes.end(),
-                       [](outcome end) { return end == outcome::stuck || end == outcome::rest; });
-}
-
-/// Labels that the model gives by itself: its certificate's, or only the resting state.
-void add_own_labels(const scene& scene, label_plan& plan) {
-    constexpr int most_listed = 64;
-    label_description text;
-    if (scene.model->describe_label != nullptr) {
-        for (int label = 1; label <= most_listed && scene.model->describe_label(label, text);
-             ++label) {
-            attractor_row row{.label = label,
-                              .name = text.index < 0 ? std::string(text.kind)
-                                                     : fmt::format("{} {}", text.kind, text.index),
-                              .period = text.period};
-            row.trap = text.trap;
-            plan.attractors.push_back(std::move(row));
-            text = {};
-        }
-    } else if (ends_at_rest(scene.info())) {
-        plan.attractors.push_back(
-            {.label = 1, .name = "rest", .period = 1, .trap = "ends stuck or at rest"});
-    }
-    if (!plan.attractors.empty()) plan.died_label = 1;
 }
 
 class label_table {
@@ -279,17 +197,15 @@ found_everywhere search_everywhere(const scene& scene, std::span<const std::uint
     const auto again = starts_by_point(scene, points, searched);
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t point = 0; point < points.size(); ++point) {
-        const map_point map = points.map_at(point);
-        const std::vector<double> starts = points.starts_at(point, n_samples);
-        const std::vector<double> scale = scale_of(map, scene.section, starts);
-        found.at[point] = search_attractors(map, scene.section, starts, scale, limits);
+        found.at[point] =
+            search_point(scene, points, point, points.starts_at(point, n_samples), limits);
         const auto more = again.find(point);
         if (more == again.end()) continue;
         search_limits thorough = limits;
         thorough.returns *= 4;
         thorough.longest_period *= 4;
-        found.at[point] = search_attractors(map, scene.section, more->second, scale, thorough,
-                                            std::move(found.at[point].attractors));
+        found.at[point] = search_point(scene, points, point, more->second, thorough,
+                                       std::move(found.at[point].attractors));
     }
     return found;
 }

@@ -114,7 +114,8 @@ trap_ellipsoid ellipsoid_of(const trap_site& site, const Eigen::MatrixXd& norm) 
     return trap;
 }
 
-std::optional<trap_ellipsoid> checked_trap(const map_point& map, const trap_site& site) {
+std::optional<trap_ellipsoid> checked_trap(const map_point& map, const trap_site& site,
+                                           bool is_quick) {
     const auto n = static_cast<Eigen::Index>(site.free.size());
     const auto centre = derivative_at(map, site, Eigen::VectorXd::Zero(n));
     if (!centre || !(spectral_radius(centre->matrix) < 1.0)) return std::nullopt;
@@ -129,14 +130,14 @@ std::optional<trap_ellipsoid> checked_trap(const map_point& map, const trap_site
         passes *= 0.25;
         if (passes < smallest) return std::nullopt;
     }
-    while (fails == 0.0 && passes < 1e6) {
+    while (!is_quick && fails == 0.0 && passes < 1e6) {
         if (check.holds(2.0 * passes)) {
             passes *= 2.0;
         } else {
             fails = 2.0 * passes;
         }
     }
-    for (int i = 0; i < 4 && fails > 0.0; ++i) {
+    for (int i = 0; i < 4 && fails > 0.0 && !is_quick; ++i) {
         const double middle = 0.5 * (passes + fails);
         (check.holds(middle) ? passes : fails) = middle;
     }

@@ -32,7 +32,10 @@ std::optional<free_derivative> derivative_at(const map_point& map, const trap_si
 /// The largest ellipsoid (in the multipliers' own norm) that passes the check, shrunk by a third
 /// for what the design's points may have missed; nothing where the orbit is not stable or no size
 /// above 1e-9 of the columns' scale passes.
-std::optional<trap_ellipsoid> checked_trap(const map_point& map, const trap_site& site);
+///
+/// \param is_quick  the first size tried that passes will do
+std::optional<trap_ellipsoid> checked_trap(const map_point& map, const trap_site& site,
+                                           bool is_quick = false);
 
 /// The plain form of |norm offset| <= 1 around the site's centre, label 0. Conserved columns get
 /// zeros.

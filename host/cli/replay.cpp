@@ -97,7 +97,8 @@ int replay(const replay_arguments& given) {
     const map_reader map(given.file);
     const scene scene = scene_of(map);
     const std::vector<std::uint64_t> coordinates = coordinates_in(scene, given.cell);
-    const label_plan plan = plan_labels(scene, cells_of(map.attribute(searched_cells)));
+    label_plan plan = plan_labels(scene, cells_of(map.attribute(searched_cells)));
+    if (plan.of_cell) plan = plan.of_cell(coordinates);
     const owned_row row = row_of(scene, plan, coordinates);
     print_events(scene, row, given);
     print_start(scene, coordinates);

@@ -65,4 +65,13 @@ std::size_t layer_index(const map_layout& layout, std::string_view name) {
     return static_cast<std::size_t>(found - layout.layers.begin());
 }
 
+std::vector<std::uint64_t> coordinates_in(const tile_box& box, std::uint64_t cell) {
+    std::vector<std::uint64_t> coordinates(box.extent.size());
+    for (std::size_t axis = box.extent.size(); axis-- > 0;) {
+        coordinates[axis] = box.origin[axis] + cell % box.extent[axis];
+        cell /= box.extent[axis];
+    }
+    return coordinates;
+}
+
 }  // namespace hopscotch

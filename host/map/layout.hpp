@@ -74,6 +74,9 @@ struct tile_box {
     std::uint64_t n_cells() const;
 };
 
+/// Coordinates in the map of a box's cell, from its index in C order within the box.
+std::vector<std::uint64_t> coordinates_in(const tile_box& box, std::uint64_t cell);
+
 /// The rectangle of a tile. Throws std::out_of_range where the map has no such tile.
 tile_box box_of(const map_layout& layout, std::uint64_t tile_index);
 

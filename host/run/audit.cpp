@@ -70,6 +70,7 @@ std::vector<int> stored_values(const scene& scene, const tile_source& tiles,
 
 cell_verdict judge(const scene& scene, const label_plan& plan, std::uint64_t cell, int stored) {
     const std::vector<std::uint64_t> coordinates = coordinates_of(scene, cell);
+    if (plan.of_cell) return judge(scene, plan.of_cell(coordinates), cell, stored);
     const owned_row row = row_of(scene, plan, coordinates);
     cell_verdict verdict{cell, stored, 0};
     for (const precision value : {precision::dd, precision::mp50}) {

@@ -7,6 +7,7 @@
 #include "kernels/ensemble/request.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,6 +48,10 @@ struct label_plan {
     std::vector<attractor_row> unstable;     // periodic orbits met by the search, label 0
     std::vector<attractor_row> attractors;   // shares are filled in after the run
     std::vector<std::string> point_columns;  // names of the columns of attractor_row::points
+
+    /// Set where almost every cell is a parameter point of its own: the plan of one cell's point,
+    /// made when it is needed (its point_axes are empty). Labels then mean the same at every point.
+    std::function<label_plan(std::span<const std::uint64_t> coordinates)> of_cell;
 
     /// Label of an orbit that has spent its returns uncaught; 0 where its state is on no chaotic
     /// set.

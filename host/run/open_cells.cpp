@@ -44,13 +44,7 @@ open_cells find_open_cells(const scene& scene, const map_run& run, std::size_t m
             const double end = number_at(number_type::uint8, data.layers[outcomes].data(), i);
             if (static_cast<int>(end) != spent) continue;
             is_open = true;
-            std::vector<std::uint64_t> position(shape.size());
-            std::uint64_t rest = i;
-            for (std::size_t axis = shape.size(); axis-- > 0;) {
-                position[axis] = data.box.origin[axis] + rest % data.box.extent[axis];
-                rest /= data.box.extent[axis];
-            }
-            const std::uint64_t cell = offset_in(shape, position);
+            const std::uint64_t cell = offset_in(shape, coordinates_in(data.box, i));
             kept.emplace_back(mixed(cell), cell);
         }
         if (is_open) open.tiles.push_back(tile);

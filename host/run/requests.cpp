@@ -35,16 +35,6 @@ column_source& source_of(ensemble_request& request, const scene_axis& axis) {
                                           : request.parameters[axis.index];
 }
 
-/// Coordinates of a cell of a box, in cells of the map.
-std::vector<std::uint64_t> coordinates_in(const tile_box& box, std::uint64_t cell) {
-    std::vector<std::uint64_t> coordinates(box.extent.size());
-    for (std::size_t axis = box.extent.size(); axis-- > 0;) {
-        coordinates[axis] = box.origin[axis] + cell % box.extent[axis];
-        cell /= box.extent[axis];
-    }
-    return coordinates;
-}
-
 /// One entry per run of neighbouring cells with the same parameter point.
 void add_points(cell_request& result, const scene& scene, const label_plan& plan,
                 const tile_box& box) {

@@ -134,6 +134,11 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
     report.outcomes = run.counts("outcome");
     report.attractors = plan.attractors;
     set_shares(report.attractors, report.labels, report.n_cells);
+    if (plan.decided_by == decision::ellipsoids) {  // labels held ready that no cell has needed
+        std::erase_if(report.attractors, [](const attractor_row& row) {
+            return row.points.empty() && row.share == 0.0;
+        });
+    }
     if (hooks.audit && scene.accuracy.audit_cells > 0) report.audit = hooks.audit(scene, plan, run);
     report.hash = run.hash();
     attribute_list attributes = report.audit;
@@ -183,7 +188,7 @@ run_report run_map(const scene& scene, const run_choices& choices, const run_hoo
         return report.n_missing == 0;
     };
     if (!compute(run.missing_tiles())) return report;
-    if (hooks.plan && plan.decided_by == decision::ellipsoids) {
+    if (hooks.plan && plan.decided_by == decision::ellipsoids && !plan.of_cell) {
         const std::vector<std::uint64_t> open_tiles = search_again(scene, hooks, run, plan);
         if (!compute(open_tiles)) return report;
     }

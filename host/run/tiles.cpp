@@ -1,11 +1,14 @@
 // Computes one tile.
 #include "host/run/tiles.hpp"
 
+#include "host/map/rows.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/state_rule.hpp"
 
 #include <chrono>
+#include <cstring>
 #include <limits>
+#include <map>
 
 namespace hopscotch {
 namespace {
@@ -110,37 +113,97 @@ void blank_states(const scene& scene, const ensemble_request& request) {
 
 }  // namespace
 
+namespace {
+
+using layer_buffers = std::vector<std::vector<std::byte>>;
+
+/// All layers of the cells of one request, in its order.
+layer_buffers compute_layers(const tile_job& job, const label_plan& plan, cell_request& cells,
+                             lane_statistics& lanes) {
+    ensemble_request& request = cells.request;
+    const std::uint64_t n_cells = request.n_cells;
+    layer_buffers buffers;
+    for (const layer_plan& layer : job.layers) {
+        bind(request, layer, buffers.emplace_back(n_cells * bytes_of(layer.description.type)));
+    }
+    std::vector<std::uint32_t> returns;  // asked of the kernel even where no layer shows them
+    if (request.returns == nullptr) {
+        returns.resize(n_cells);
+        request.returns = returns.data();
+    }
+    std::vector<std::vector<double>> states;  // likewise, where chaotic sets are told by them
+    const std::size_t n_columns = job.what.end_section().columns.size();
+    for (std::size_t c = 0; c < n_columns && !plan.chaotic.empty(); ++c) {
+        if (request.state[c] == nullptr) request.state[c] = states.emplace_back(n_cells).data();
+    }
+    lanes += job.kernel.run(request);
+    if (!plan.chaotic.empty()) label_chaotic(plan, request, n_columns);
+    blank_states(job.what, request);
+    for (std::size_t i = 0; i < job.layers.size(); ++i) {
+        if (job.layers[i].role == layer_role::period) {
+            fill_periods(plan, request.label, n_cells, buffers[i]);
+        } else if (job.layers[i].role == layer_role::immediate) {
+            fill_immediate(plan, request, buffers[i]);
+        }
+    }
+    return buffers;
+}
+
+/// Cells of one parameter point within a box: their coordinates and places.
+struct cell_group {
+    std::vector<std::uint64_t> first;   // coordinates of the first one
+    std::vector<std::uint64_t> cells;   // index in the map
+    std::vector<std::uint64_t> places;  // index in the box
+};
+
+std::vector<cell_group> groups_of(const scene& scene, const label_plan& plan,
+                                  const map_layout& layout, const tile_box& box) {
+    std::vector<std::uint64_t> shape;
+    for (const axis& along : layout.axes) shape.push_back(along.size());
+    std::map<std::uint64_t, cell_group> groups;
+    for (std::uint64_t place = 0; place < box.n_cells(); ++place) {
+        const std::vector<std::uint64_t> coordinates = coordinates_in(box, place);
+        cell_group& group = groups[point_index(scene, plan, coordinates)];
+        if (group.cells.empty()) group.first = coordinates;
+        group.cells.push_back(offset_in(shape, coordinates));
+        group.places.push_back(place);
+    }
+    std::vector<cell_group> result;
+    for (auto& [point, group] : groups) result.push_back(std::move(group));
+    return result;
+}
+
+/// Point by point, each with a plan of its own.
+layer_buffers compute_by_point(const tile_job& job, const tile_box& box, lane_statistics& lanes) {
+    layer_buffers buffers;
+    for (const layer_plan& layer : job.layers) {
+        buffers.emplace_back(box.n_cells() * bytes_of(layer.description.type));
+    }
+    for (const cell_group& group : groups_of(job.what, job.plan, job.layout, box)) {
+        const label_plan plan = job.plan.of_cell(group.first);
+        cell_request cells = request_of(job.what, plan, group.cells);
+        const layer_buffers found = compute_layers(job, plan, cells, lanes);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const std::size_t size = bytes_of(job.layers[i].description.type);
+            for (std::size_t k = 0; k < group.places.size(); ++k) {
+                std::memcpy(&buffers[i][group.places[k] * size], &found[i][k * size], size);
+            }
+        }
+    }
+    return buffers;
+}
+
+}  // namespace
+
 tile_result compute_tile(const tile_job& job, const tile_box& box) {
     const auto begin = std::chrono::steady_clock::now();
     tile_result result;
     result.data.box = box;
-    cell_request cells = request_of(job.what, job.plan, job.layout, box);
-    const std::uint64_t n_cells = box.n_cells();
-    for (const layer_plan& layer : job.layers) {
-        auto& buffer = result.data.layers.emplace_back(n_cells * bytes_of(layer.description.type));
-        bind(cells.request, layer, buffer);
-    }
-    std::vector<std::uint32_t> returns;  // asked of the kernel even where no layer shows them
-    if (cells.request.returns == nullptr) {
-        returns.resize(n_cells);
-        cells.request.returns = returns.data();
-    }
-    std::vector<std::vector<double>> states;  // likewise, where chaotic sets are told by them
-    const std::size_t n_columns = job.what.end_section().columns.size();
-    for (std::size_t c = 0; c < n_columns && !job.plan.chaotic.empty(); ++c) {
-        if (cells.request.state[c] != nullptr) continue;
-        cells.request.state[c] = states.emplace_back(n_cells).data();
-    }
-    result.lanes = job.kernel.run(cells.request);
-    if (!job.plan.chaotic.empty()) label_chaotic(job.plan, cells.request, n_columns);
-    blank_states(job.what, cells.request);
-    for (std::size_t i = 0; i < job.layers.size(); ++i) {
-        auto& buffer = result.data.layers[i];
-        if (job.layers[i].role == layer_role::period) {
-            fill_periods(job.plan, cells.request.label, n_cells, buffer);
-        } else if (job.layers[i].role == layer_role::immediate) {
-            fill_immediate(job.plan, cells.request, buffer);
-        }
+    if (job.plan.of_cell) {
+        result.data.layers = compute_by_point(job, box, result.lanes);
+    } else {
+        cell_request cells = request_of(job.what, job.plan, job.layout, box);
+        result.data.layers = compute_layers(job, job.plan, cells, result.lanes);
     }
     const auto end = std::chrono::steady_clock::now();
     result.seconds = std::chrono::duration<double>(end - begin).count();

@@ -108,6 +108,34 @@ TEST(attractor_search, searches_every_speed_that_the_runner_conserves) {
     EXPECT_EQ(plan.ellipsoids[2].label, 1);
 }
 
+// models/openloop_hopper.md, section 7: the fixed point flips at 123.5 and 156.0 ms. A period-2
+// orbit of another family attracts on both sides of the flips, too.
+TEST(attractor_search, the_fixed_point_attracts_outside_the_pages_flips_only) {
+    for (const auto& [period, is_stable] :
+         {std::pair{"0.1230", true}, std::pair{"0.1240", false}, std::pair{"0.1555", false},
+          std::pair{"0.1565", true}}) {
+        const label_plan plan =
+            plan_of(open_loop, {"model.parameters.thrust=3.8", "model.parameters.thrust_time=0.02",
+                                std::string("model.parameters.stride_period=") + period});
+        EXPECT_EQ(plan.attractors.at(0).period == 1, is_stable) << period;
+    }
+}
+
+TEST(attractor_search, one_label_stands_for_one_period_where_every_cell_is_a_point) {
+    const std::string file =
+        std::string(HOPSCOTCH_SOURCE) + "/configs/scenes/cham2007_periods.toml";
+    const scene scene = read_scene(
+        file, std::vector<std::string>{"grid.axis.0.cells=1", "grid.axis.0.min=0.13",
+                                       "grid.axis.0.max=0.15", "grid.axis.1.cells=1",
+                                       "grid.axis.1.min=0.015", "grid.axis.1.max=0.025"});
+    const label_plan plan = plan_labels(scene);
+    ASSERT_TRUE(plan.of_cell);
+    const label_plan here = plan.of_cell(std::vector<std::uint64_t>{0, 0});  // 140 ms
+    ASSERT_EQ(here.n_ellipsoids, 2);  // one trap per point of the cycle
+    for (const trap_ellipsoid& trap : here.ellipsoids) EXPECT_EQ(trap.label, 2);
+    EXPECT_EQ(plan.attractors[1].name, "period 2");
+}
+
 TEST(attractor_search, labels_do_not_depend_on_the_grid_that_starts_are_taken_from) {
     const label_plan one = plan_of(open_loop);
     const label_plan other = plan_of(open_loop, {"grid.axis.0.cells=77", "grid.axis.1.cells=131"});
