@@ -77,6 +77,15 @@ std::vector<double> plan_points::starts_at(std::size_t point, std::size_t most) 
     return starts;
 }
 
+std::vector<double> plan_points::values_at(std::size_t point) const {
+    const std::vector<std::uint64_t> coordinates = coordinates_of_point(point);
+    std::vector<double> values;
+    for (const std::size_t axis : axes_) {
+        values.push_back(value_of(scene_.axes[axis], coordinates[axis]));
+    }
+    return values;
+}
+
 std::size_t plan_points::point_of(std::span<const std::uint64_t> coordinates) const {
     std::size_t point = 0;
     for (const std::size_t axis : axes_) {

@@ -26,6 +26,9 @@ public:
     /// All of them where there are no more.
     std::vector<double> starts_at(std::size_t point, std::size_t most) const;
 
+    /// Where a point lies along each of the axes.
+    std::vector<double> values_at(std::size_t point) const;
+
     /// The point that a cell belongs to.
     std::size_t point_of(std::span<const std::uint64_t> coordinates) const;
 

@@ -8,9 +8,7 @@
 #include <cmath>
 
 namespace hopscotch {
-namespace {
 
-/// Typical size of every column: the spread of the starts' first images.
 std::vector<double> scale_of(const map_point& map, int section, std::span<const double> starts) {
     const settled_orbits images = settle(map, section, starts, 1);
     const auto n = static_cast<std::size_t>(images.n_columns);
@@ -31,8 +29,6 @@ std::vector<double> scale_of(const map_point& map, int section, std::span<const 
     }
     return scale;
 }
-
-}  // namespace
 
 std::vector<std::size_t> axes_of_points(const scene& scene) {
     std::vector<std::size_t> axes = parameter_axes(scene);

@@ -22,6 +22,9 @@ search_limits limits_of(const scene& scene, std::size_t n_points);
 /// Cells to start from at every point: the scene's `samples`, else 512 for one point, 32 for more.
 std::size_t samples_of(const scene& scene, std::size_t n_points);
 
+/// Typical size of every column at a point: the spread of its starts' first images.
+std::vector<double> scale_of(const map_point& map, int section, std::span<const double> starts);
+
 /// The attractors at one point, from starts on the scene's section ([start][column]).
 attractor_search search_point(const scene& scene, const plan_points& points, std::size_t point,
                               std::span<const double> starts, const search_limits& limits,

@@ -3,6 +3,7 @@
 #include "analysis/labels/one_sided.hpp"
 #include "analysis/labels/plan.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/sector_text.hpp"
 #include "host/cli/tables.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/run/json.hpp"
@@ -116,8 +117,8 @@ std::string rows_json(const std::vector<attractor_row>& rows) {
     return text;
 }
 
-std::string json_of(const scene& scene, const label_plan& plan,
-                    const std::vector<sided_row>& rows) {
+std::string json_of(const scene& scene, const label_plan& plan, const std::vector<sided_row>& rows,
+                    const std::vector<sector_row>& sectors) {
     std::string text = fmt::format("{{\"model\": {}, \"columns\": {}, \"attractors\": [",
                                    json_text(scene.info().name), json_texts(plan.point_columns));
     text += rows_json(plan.attractors) + "\n], \"unstable\": [" + rows_json(plan.unstable);
@@ -128,17 +129,19 @@ std::string json_of(const scene& scene, const label_plan& plan,
             i == 0 ? "" : ",", json_text(rows[i].name), json_numbers(rows[i].parameters),
             side_json(rows[i].sides.left), side_json(rows[i].sides.right));
     }
-    return text + "\n]}\n";
+    return text + "\n], \"sectors\": " + sector_json(sectors) + "}\n";
 }
 
 int attractors(const attractor_arguments& given) {
     const scene scene = read_scene(given.scene, given.overrides);
     const label_plan plan = plan_labels(scene);
     const std::vector<sided_row> rows = sided_rows(scene, plan);
-    fmt::print("{}{}", table_of(plan), sided_table(scene, rows));
+    const std::vector<sector_row> sectors = sector_table(scene, plan);
+    fmt::print("{}{}{}", table_of(plan), sided_table(scene, rows),
+               sector_text(scene, plan, sectors));
     const std::string stem = std::filesystem::path(scene.file).stem().string();
     const std::string file = given.output.empty() ? stem + "_attractors.json" : given.output;
-    put_text(file, json_of(scene, plan, rows));
+    put_text(file, json_of(scene, plan, rows, sectors));
     if (file != "-") fmt::print("{}\n", file);
     return exit_done;
 }
