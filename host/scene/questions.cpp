@@ -16,21 +16,16 @@ constexpr std::array<names, 3> fall_layers{"returns", "outcome", "time"};
 
 constexpr std::array<question_number, 1> transient{{{"transient", 1000.0, 0.0, true}}};
 
+// samples: cells to search attractors from at every parameter point, 0 for as many as suit their
+// number
+constexpr std::array<question_number, 2> search{
+    {{"samples", 0.0, 0.0, true}, {"longest_period", 64.0, 1.0, true}}};
+
 constexpr std::array<question_kind, 8> kinds{{
-    {"basins", "the attractor that each start tends to", true, true, 2000, {}, label_layers},
-    {"one_sided",
-     "the basins, for orbits that attract from one side only",
-     true,
-     true,
-     2000,
-     {},
-     one_sided_layers},
-    {"period",
-     "the period of the attractor that each start tends to",
-     true,
-     true,
-     2000,
-     {},
+    {"basins", "the attractor that each start tends to", true, true, 2000, search, label_layers},
+    {"one_sided", "the basins, for orbits that attract from one side only", true, true, 2000,
+     search, one_sided_layers},
+    {"period", "the period of the attractor that each start tends to", true, true, 2000, search,
      period_layers},
     {"return_map", "the state after the given number of returns", false, true, 1, {}, state_layers},
     {"steps_to_fall",
