@@ -187,7 +187,9 @@ struct raibert_linear {
 
         Real ended = select(sinks | sinks_next, code_of<Real>(outcome::sinks), zero);
         ended = select(hops & !end.exists, code_of<Real>(outcome::no_liftoff), ended);
-        const mask_of<Real> lost = flies & !(touchdown - touchdown == zero);
+        // the apex needs the square over the gravity
+        const mask_of<Real> lost =
+            flies & !(touchdown * touchdown < lane.flight_gravity * Real(1e300));
         ended = select(lost, code_of<Real>(outcome::not_finite), ended);
         const mask_of<Real> moves = returned & !lost;
         lane.speed = select(moves, touchdown, lane.speed);

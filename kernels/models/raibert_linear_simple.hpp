@@ -171,7 +171,8 @@ struct raibert_linear_simple {
         const Real happened = select(has_end, Real(4.0), Real(3.0));
         lane.events = select(active, lane.events + happened, lane.events);
         lane.amplitude = select(active, next, lane.amplitude);
-        const mask_of<Real> lost = active & !(next - next == zero);
+        const Real energy = next * next;  // what the bottom section shows: it overflows first
+        const mask_of<Real> lost = active & !(energy - energy == zero);
         const mask_of<Real> returned = active & !lost;
         return {returned, select(lost, code_of<Real>(outcome::not_finite), zero)};
     }

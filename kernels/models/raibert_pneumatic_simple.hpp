@@ -131,12 +131,13 @@ struct raibert_pneumatic_simple {
             lane.energy = x / parameter[stiffness] * x * Real(0.5);
             const mask_of<Real> deep = valid & (lane.energy < Real(deep_energy));
             if (any(deep)) {
-                lane.log_energy = Real(2.0) * log(x) - log(parameter[stiffness] * Real(2.0));
+                const Real level = Real(2.0) * log(x) - log(parameter[stiffness] * Real(2.0));
+                lane.log_energy = select(deep, level, zero);
             }
         }
         if (section != at_touchdown) {
             const mask_of<Real> deep = valid & (lane.energy < Real(deep_energy));
-            if (any(deep)) lane.log_energy = log(lane.energy);
+            if (any(deep)) lane.log_energy = select(deep, log(lane.energy), zero);
         }
         valid = valid & (lane.energy < infinity<Real>());
         lane.energy = select(valid, lane.energy, one);
@@ -151,7 +152,9 @@ struct raibert_pneumatic_simple {
         const Real now = lane.energy;
         const mask_of<Real> deep = now < Real(deep_energy);
         Real next = lane.gain * now * exp(-now);
-        const mask_of<Real> leaves_range = deep | (now > Real(deep_fall));
+        // from, to or through energies that only their logarithm holds
+        const mask_of<Real> leaves_range =
+            deep | (now > Real(deep_fall)) | (next < Real(deep_energy));
         if (any(leaves_range)) {
             const Real level = select(deep, lane.log_energy, log(now)) + (log(lane.gain) - now);
             next = select(leaves_range, exp(level), next);
@@ -171,7 +174,11 @@ struct raibert_pneumatic_simple {
         lane.events =
             select(active, lane.events + Real(3.0), lane.events);  // bottom, lift-off, touchdown
         lane.energy = select(active, next, lane.energy);
-        const mask_of<Real> lost = active & !(next == next);
+        // where the thrust behind a gain overflows there are no times, nor a speed where its square
+        // does
+        const Real square = Real(2.0) * lane.stiffness * next;
+        const mask_of<Real> lost =
+            active & !((square < infinity<Real>()) & (lane.thrust < infinity<Real>()));
         const mask_of<Real> returned = active & !lost;
         return {returned, select(lost, code_of<Real>(outcome::not_finite), zero)};
     }

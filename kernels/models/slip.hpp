@@ -117,8 +117,14 @@ struct slip {
         const mask_of<Real> valid = finite & (lane.speed > zero);
         const mask_of<Real> low = valid & (fall < zero);
         const mask_of<Real> none = valid & !valid;
-        return {none, select(valid, select(low, code_of<Real>(outcome::stumble), zero),
-                             code_of<Real>(outcome::invalid_start))};
+        Real ended = select(valid, select(low, code_of<Real>(outcome::stumble), zero),
+                            code_of<Real>(outcome::invalid_start));
+        if (section == 1) {  // under so little gravity the next apex is beyond all numbers
+            const mask_of<Real> unbounded_apex = !(lane.height_unit < infinity<Real>());
+            ended =
+                select((ended == zero) & unbounded_apex, code_of<Real>(outcome::not_finite), ended);
+        }
+        return {none, ended};
     }
 
     template <int Variant, class Real, class Watch>

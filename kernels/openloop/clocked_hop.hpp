@@ -217,7 +217,7 @@ HOPSCOTCH_DEVICE inline progress<Real> advance(hopper_lane<Real>& lane, const ma
     if (any(waits)) {
         ended = select(has_settled<Terms>(lane, waits), code_of<Real>(outcome::no_hop), ended);
     }
-    const Real sum = duration + lane.height + lane.velocity;
+    const Real sum = duration + lane.height + lane.velocity + lane.first_column;
     const mask_of<Real> finite = sum - sum == zero;
     ended = select(active & !finite, code_of<Real>(outcome::not_finite), ended);
     const mask_of<Real> completed = returned & finite;

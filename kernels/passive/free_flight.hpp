@@ -101,13 +101,18 @@ struct contact_search {
     mask_of<Real> found;
 };
 
+/// Most half oscillations that a search looks at: a flight that long starts 5e10 spring lengths
+/// high. Damped swings of such a size are not skipped, since the spring's reach is taken at the
+/// start.
+inline constexpr int most_flight_pieces = 100000;
+
 /// First contact of a flight: G falls through zero, or touches it.
 ///
 /// \param flow      the flight
 /// \param lift_off  lanes with G = G' = 0, F = 1 rising at t = 0 (an inflection that does not
 /// count) \param wanted    lanes to search \return          time and found; found = false where
 /// gravity has not closed the gap within the last
-///                  possible contact time (a non-finite state)
+///                  possible contact time (a non-finite state) or within most_flight_pieces
 /// \error           none
 /// The extrema of F are equally spaced; between two of them F = 1 has at most one root, an
 /// inflection of the gap, so that every piece between has curvature of one sign. While the ball is
@@ -142,7 +147,7 @@ HOPSCOTCH_DEVICE inline contact_search<Real> first_contact(const free_flight<Dam
     mask_of<Real> searching = wanted;
     mask_of<Real> found = wanted & !wanted;
     Real time(0.0);
-    while (any(searching)) {
+    for (int piece = 0; piece < most_flight_pieces && any(searching); ++piece) {
         const Real to = fma(segment, half_period, first_extremum);
         const Real bend_to = flow.gap_curvature(to);
         const mask_of<Real> convex = bend > zero;

@@ -82,7 +82,8 @@ HOPSCOTCH_DEVICE inline Real book_flight(runner<Real>& lane, const lift_off<Real
 /// Time from the apex to the touchdown that the lane stands at.
 template <class Real>
 HOPSCOTCH_DEVICE inline Real descent(const runner<Real>& lane) {
-    return lane.at_apex * (sin(lane.angle) / lane.gravity) * lane.time_unit;
+    const Real fall = (sin(lane.angle) / lane.gravity) * lane.time_unit;
+    return select(lane.at_apex > Real(0.0), fall, Real(0.0));
 }
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET::spring_leg

@@ -169,6 +169,18 @@ TEST(RaibertPneumaticSimple, orbits_survive_energies_below_the_smallest_double) 
     EXPECT_EQ(state_of(hop("energy", "0", set, 5)), 0.0);
 }
 
+TEST(RaibertPneumaticSimple, dying_orbits_fade_through_the_smallest_doubles_and_never_come_back) {
+    // below 1e-20 a hop multiplies the energy by the gain alone, its speed by the root of it
+    const settings set{{"gain", "0.9"}};
+    const double early = state_of(hop("touchdown", "1", set, 1000));
+    for (const std::uint32_t n : {6000u, 7000u, 7500u}) {  // energies from 1e-275 to 1e-344
+        const double late = state_of(hop("touchdown", "1", set, n));
+        const double hops = static_cast<double>(n) - 1000.0;
+        EXPECT_NEAR(late / (early * std::pow(0.9, 0.5 * hops)), 1.0, 1e-11) << n;
+    }
+    EXPECT_EQ(state_of(hop("energy", "0.5", set, 7500)), 0.0);
+}
+
 TEST(RaibertPneumaticSimple, superstable_cycles_have_multiplier_zero) {
     // E = 1 is the critical point: what is left is the rounding of alpha exp(-E) - alpha E exp(-E)
     const auto fixed =
