@@ -15,8 +15,6 @@ struct absent_command {
 };
 
 constexpr absent_command absent[] = {
-    {"branch", "Continue periodic orbits over a parameter",
-     "hopscotch run with question.kind = \"period\" and the parameter as an axis"},
     {"bench", "Speed against error", "./hopscotch bench in a checkout"},
     {"merge", "Join maps", "hopscotch run --resume"},
 };

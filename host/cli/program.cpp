@@ -28,6 +28,7 @@ void add_commands(CLI::App& program, int& code) {
     add_trace(program, code);
     add_attractors(program, code);
     add_analyse(program, code);
+    add_branch(program, code);
     add_render(program, code);
     add_verify(program, code);
     add_replay(program, code);

@@ -20,6 +20,10 @@ constexpr std::array<question_number, 1> transient{{{"transient", 1000.0, 0.0, t
 // number
 constexpr std::array<question_number, 2> search{
     {{"samples", 0.0, 0.0, true}, {"longest_period", 64.0, 1.0, true}}};
+constexpr std::array<question_number, 4> continuation{{{"period", 1.0, 1.0, true},
+                                                       {"doublings", 1.0, 0.0, true},
+                                                       {"step", 0.01, 1e-6, false},
+                                                       {"settling", 200.0, 0.0, true}}};
 
 constexpr std::array<question_kind, 8> kinds{{
     {"basins", "the attractor that each start tends to", true, true, 2000, search, label_layers},
@@ -38,7 +42,8 @@ constexpr std::array<question_kind, 8> kinds{{
     {"lyapunov", "the largest Lyapunov exponent", false, false, 1000, transient, state_layers},
     {"orbit_diagram", "the states that orbits settle on, over a parameter", false, false, 1000,
      transient, state_layers},
-    {"branch", "periodic orbits continued over a parameter", false, false, 1, {}, state_layers},
+    {"branch", "periodic orbits continued over a parameter", false, false, 1, continuation,
+     state_layers},
 }};
 
 }  // namespace

@@ -1,0 +1,120 @@
+// Test functions from determinants and eigenvalues of DP^period.
+#include "analysis/continuation/stability_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace hopscotch {
+namespace {
+
+double shifted_determinant(const Eigen::MatrixXd& derivative, double shift) {
+    const Eigen::Index n = derivative.rows();
+    return (derivative + shift * Eigen::MatrixXd::Identity(n, n)).determinant();
+}
+
+}  // namespace
+
+std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivative) {
+    std::vector<std::complex<double>> multipliers;
+    if (derivative.size() == 0) return multipliers;
+    const Eigen::VectorXcd values =
+        Eigen::EigenSolver<Eigen::MatrixXd>(derivative, false).eigenvalues();
+    multipliers.assign(values.begin(), values.end());
+    std::sort(multipliers.begin(), multipliers.end(), [](const auto& a, const auto& b) {
+        if (std::abs(a) != std::abs(b)) return std::abs(a) > std::abs(b);
+        return a.imag() > b.imag();
+    });
+    return multipliers;
+}
+
+double flip_test(const Eigen::MatrixXd& derivative) { return shifted_determinant(derivative, 1.0); }
+double fold_test(const Eigen::MatrixXd& derivative) {
+    return shifted_determinant(derivative, -1.0);
+}
+
+double pair_test(const Eigen::MatrixXd& derivative) {
+    if (derivative.rows() == 2) return derivative.determinant() - 1.0;
+    const auto multipliers = multipliers_of(derivative);
+    std::complex<double> product = 1.0;
+    for (std::size_t i = 0; i < multipliers.size(); ++i) {
+        for (std::size_t j = i + 1; j < multipliers.size(); ++j) {
+            product *= multipliers[i] * multipliers[j] - 1.0;
+        }
+    }
+    return product.real();
+}
+
+std::optional<test_values> tests_at(const branch_equation& equation, const curve_point& point) {
+    const equation_value value = equation.at(point.unknowns);
+    const Eigen::MatrixXd derivative = equation.derivative_at(point.unknowns);
+    if (!value.is_ok() || derivative.size() == 0) return std::nullopt;
+    const Eigen::Index n = point.unknowns.size();
+    Eigen::MatrixXd bordered(n, n);
+    bordered << value.jacobian, point.tangent.transpose();
+    return test_values{point.tangent[n - 1], flip_test(derivative), pair_test(derivative),
+                       bordered.determinant()};
+}
+
+std::optional<curve_point> locate(
+    const curve_equation& equation, const curve_point& from, double length,
+    const std::function<std::optional<double>(const curve_point&)>& test) {
+    constexpr int most_evaluations = 80;
+    constexpr double closeness = 4e-16;  // of the step's length
+    double low = 0.0;
+    double high = length;
+    auto at_low = test(from);
+    auto reached = step_along(equation, from.unknowns, from.tangent, high).point;
+    if (!reached || !at_low) return std::nullopt;
+    auto at_high = test(*reached);
+    if (!at_high || *at_low * *at_high > 0.0) return std::nullopt;
+    int last_side = 0;
+    double value_low = *at_low;
+    double value_high = *at_high;
+    for (int i = 0; i < most_evaluations && high - low > closeness * length; ++i) {
+        double middle = low + (high - low) * value_low / (value_low - value_high);
+        if (!(middle > low && middle < high) || i % 8 == 7) middle = 0.5 * (low + high);
+        const auto point = step_along(equation, from.unknowns, from.tangent, middle).point;
+        if (!point) return std::nullopt;
+        const auto value = test(*point);
+        if (!value) return std::nullopt;
+        reached = point;
+        if (*value == 0.0) break;
+        const int side = (*value < 0.0) == (value_high < 0.0) ? 1 : -1;
+        if (side > 0) {
+            high = middle;
+            value_high = *value;
+            if (last_side > 0) value_low *= 0.5;
+        } else {
+            low = middle;
+            value_low = *value;
+            if (last_side < 0) value_high *= 0.5;
+        }
+        last_side = side;
+    }
+    return reached;
+}
+
+std::optional<special_kind> kind_of_zero(int test,
+                                         const std::vector<std::complex<double>>& multipliers) {
+    constexpr double near = 1e-4;  // a sign change through infinity is no zero
+    const auto closest_to = [&](double target) {
+        double distance = 1e300;
+        for (const auto& mu : multipliers) distance = std::min(distance, std::abs(mu - target));
+        return distance;
+    };
+    if (test == 0 && closest_to(1.0) < near) return special_kind::fold;
+    if (test == 1 && closest_to(-1.0) < near) return special_kind::flip;
+    if (test == 3 && closest_to(1.0) < near) return special_kind::branch_point;
+    if (test == 2) {
+        for (const auto& mu : multipliers) {
+            if (std::abs(std::abs(mu) - 1.0) < near && std::abs(mu.imag()) > near)
+                return special_kind::neimark_sacker;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace hopscotch
