@@ -37,6 +37,7 @@ orbit_exponents exponents_of(const map_point& map, std::span<const double> start
     }
     sums /= static_cast<double>(block);
     result.is_complete = true;
+    result.returns = static_cast<double>(n_blocks) * static_cast<double>(block);
     for (Eigen::Index r = 0; r < n; ++r) {
         const double mean = sums.row(r).mean();
         const double variance = (sums.row(r).array() - mean).square().sum() / (n_blocks - 1.0);

@@ -4,6 +4,7 @@
 
 #include "analysis/periodic/map_point.hpp"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -15,8 +16,13 @@ struct orbit_exponents {
     std::vector<double> error;    // standard error over blocks
     std::vector<double> visited;  // [block][column]: the state at the end of every block
 
-    /// The largest exponent is positive beyond doubt (five standard errors).
-    bool is_chaotic() const { return is_complete && mean[0] > 5.0 * error[0] && mean[0] > 0.0; }
+    double returns = 0.0;  // counted
+
+    /// The largest exponent is positive by five standard errors.
+    bool is_positive() const { return is_complete && mean[0] > 0.0 && mean[0] > 5.0 * error[0]; }
+    /// Positive, and grown far beyond what shear along a family of neutral orbits gives, whose
+    /// tangents grow like the number of returns.
+    bool is_chaotic() const { return is_positive() && mean[0] * returns > 4.0 * std::log(returns); }
 };
 
 /// \param start  one number per column

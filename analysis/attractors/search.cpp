@@ -224,13 +224,17 @@ private:
     }
 
     void look_for_chaos() {
+        constexpr int most_failures = 16;  // in which neither chaos nor a cycle is found
         int n_failed = 0;
-        for (std::size_t i = 0; i < n_open() && n_failed < limits_.most_attempts; ++i) {
+        for (std::size_t i = 0; i < n_open() && n_failed < most_failures; ++i) {
             const std::vector<double> x = open_state(i);
             if (is_covered(x)) continue;
             const int n_blocks = limits_.is_quick ? 16 : 32;
             const int block = limits_.is_quick ? 32 : 64;
-            const orbit_exponents exponents = exponents_of(map_, x, free_, n_blocks, block);
+            orbit_exponents exponents = exponents_of(map_, x, free_, n_blocks, block);
+            if (exponents.is_positive() && !exponents.is_chaotic()) {  // weak chaos, or shear
+                exponents = exponents_of(map_, x, free_, n_blocks, 8 * block);
+            }
             if (!exponents.is_chaotic()) {
                 ++n_failed;
                 continue;

@@ -112,6 +112,10 @@ attractor_row row_of(const periodic_orbit& orbit) {
     row.period = orbit.period;
     row.points = orbit.points;
     set_multipliers(row, orbit.multipliers);
+    constexpr double neutral = 1e-6;
+    const bool is_neutral =
+        !orbit.multipliers.empty() && std::abs(std::abs(orbit.multipliers[0]) - 1.0) < neutral;
+    row.trap = is_neutral ? "none: neutral, one of a family of orbits" : "none: unstable";
     return row;
 }
 

@@ -44,7 +44,7 @@ std::string table_of(const label_plan& plan) {
     }
     for (const attractor_row& row : plan.unstable) {
         rows.push_back({"-", row.name, fmt::format("{}", row.period), numbers_text(row.points),
-                        numbers_text(row.multipliers_real), "none: unstable"});
+                        numbers_text(row.multipliers_real), row.trap});
     }
     return aligned(rows, 0);
 }

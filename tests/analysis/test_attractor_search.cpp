@@ -136,6 +136,19 @@ TEST(attractor_search, one_label_stands_for_one_period_where_every_cell_is_a_poi
     EXPECT_EQ(plan.attractors[1].name, "period 2");
 }
 
+// Energy is conserved, and no column of this section by itself: every orbit is one of a family, and
+// tangents grow by shear. That is neither an attractor nor chaos.
+TEST(attractor_search, a_family_of_neutral_orbits_is_not_called_chaos) {
+    const label_plan plan =
+        plan_of("ghigliazza2005_basins.toml",
+                {"grid.section=apex", "grid.axis.0.name=apex_height", "grid.axis.0.min=1.43",
+                 "grid.axis.0.max=1.6", "grid.axis.0.cells=20", "grid.axis.1.name=forward_speed",
+                 "grid.axis.1.min=4.3", "grid.axis.1.max=5.0", "grid.axis.1.cells=20"});
+    EXPECT_TRUE(plan.attractors.empty());
+    ASSERT_FALSE(plan.unstable.empty());
+    EXPECT_NEAR(largest_modulus(plan.unstable[0]), 1.0, 1e-6);
+}
+
 TEST(attractor_search, labels_do_not_depend_on_the_grid_that_starts_are_taken_from) {
     const label_plan one = plan_of(open_loop);
     const label_plan other = plan_of(open_loop, {"grid.axis.0.cells=77", "grid.axis.1.cells=131"});
