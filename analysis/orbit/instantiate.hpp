@@ -2,6 +2,7 @@
 // numbers over each. Included only by generated units, one per model.
 #pragma once
 
+#include "analysis/orbit/exponent_orbit.hpp"
 #include "analysis/orbit/orbit_functions.hpp"
 #include "analysis/truth/decimal.hpp"
 #include "analysis/truth/real50.hpp"
@@ -244,6 +245,13 @@ return_jet run_jet(const jet_query& query) {
                                [&](auto variant) { return jet_of<Model, variant()>(query); });
 }
 
+template <class Model>
+exponent_answer run_exponents(const orbit_row& row, const exponent_request& wanted) {
+    return with_variant<Model>(row.variant, [&](auto variant) {
+        return exponent_orbit<Model, variant(), n_derivatives<Model>()>(row, wanted).run();
+    });
+}
+
 /// Passes a model's phases and events on to an observer.
 struct watching {
     static constexpr bool is_active = true;
@@ -278,7 +286,8 @@ orbit_answer trace_orbit(const orbit_row& row, orbit_observer& observer) {
 
 template <class Model>
 inline constexpr orbit_functions orbit_table{
-    &run_orbit<Model, double>, &run_orbit<Model, double_double<double>>, &run_orbit<Model, real50>,
-    &trace_orbit<Model>, &run_jet<Model>};
+    &run_orbit<Model, double>, &run_orbit<Model, double_double<double>>,
+    &run_orbit<Model, real50>, &trace_orbit<Model>,
+    &run_jet<Model>,           &run_exponents<Model>};
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

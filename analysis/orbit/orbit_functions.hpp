@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernels/contract/info.hpp"
+#include "kernels/contract/motion.hpp"
 #include "kernels/ensemble/request.hpp"
 
 #include <cstdint>
@@ -69,6 +70,15 @@ struct return_jet {
     double parameter_derivative[most_columns] = {};      // d state[i] / d parameter
 };
 
+/// Lyapunov exponents of one orbit, per return and largest first; NaN where there is none.
+struct exponent_answer {
+    outcome end = outcome::ok;
+    std::uint32_t returns = 0;  // completed, transient included
+    enum motion motion = motion::ended;
+    double standard_error = 0.0;  // of the largest one
+    double exponents[most_columns] = {};
+};
+
 /// Watches one orbit (see kernels/contract/watch.hpp). `sampler(t, columns)` gives the state t
 /// after the beginning of the phase.
 struct orbit_observer {
@@ -94,6 +104,7 @@ struct orbit_functions {
     orbit_answer (*run_mp50)(const orbit_row&);
     orbit_answer (*trace)(const orbit_row&, orbit_observer&);  // in double
     return_jet (*jet)(const jet_query&);
+    exponent_answer (*exponents)(const orbit_row&, const exponent_request&);  // in double-double
 };
 
 }  // namespace hopscotch

@@ -1,6 +1,7 @@
 #include "analysis/render/render.hpp"
 
 #include "analysis/render/colouring.hpp"
+#include "analysis/render/diagram.hpp"
 #include "analysis/render/figure.hpp"
 #include "analysis/render/image_data.hpp"
 #include "analysis/render/palette.hpp"
@@ -128,6 +129,10 @@ canvas draw(const image_data& data, figure figure, const colouring& colours) {
 void render_map(const std::filesystem::path& map, const std::filesystem::path& png,
                 const std::string& layer) {
     const map_reader reader(map);
+    if (is_diagram(reader.layout())) {
+        write_png(png, draw_diagram(reader, layer, title_of(reader, map)));
+        return;
+    }
     const image_data data = read_image(reader, layer, most_pixels);
     const colouring colours(data, reader.attractors());
     figure figure;

@@ -5,13 +5,17 @@
 #include "host/cli/trace_writer.hpp"
 #include "host/cli/usage_error.hpp"
 #include "host/run/attributes.hpp"
+#include "host/run/audit.hpp"
 #include "host/run/open_cells.hpp"
+#include "host/run/orbit_diagram.hpp"
+#include "host/run/requests.hpp"
 #include "host/run/truth_orbits.hpp"
 #include "host/scene/grid.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <span>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -60,6 +64,7 @@ int stored_value(const map_reader& map, const std::string& layer,
 }
 
 std::string value_name(const scene& scene, const label_plan& plan, int value) {
+    if (is_chaos_map(scene)) return std::string(motion_names.at(static_cast<std::size_t>(value)));
     if (!scene.question.has_labels) return std::string(name_of(static_cast<outcome>(value)));
     for (const attractor_row& row : plan.attractors) {
         if (row.label == value) return fmt::format("{} ({})", value, row.name);
@@ -93,18 +98,36 @@ void print_events(const scene& scene, const owned_row& row, const replay_argumen
         fmt::print("(the first {} of {} returns)\n", traced.returns, returns);
 }
 
+/// The motion once more in double-double, with all exponents.
+int replay_motion(const scene& scene, const orbit_row& row, int stored) {
+    const exponent_answer answer = run_exponents(scene, row);
+    const std::span exponents(answer.exponents, scene.end_section().columns.size());
+    fmt::print("{:<8} {}  outcome {}, {} returns, exponents {:.17g}, standard error {:.17g}\n",
+               "dd", motion_names[static_cast<std::size_t>(answer.motion)], name_of(answer.end),
+               answer.returns, fmt::join(exponents, " "), answer.standard_error);
+    const bool holds = static_cast<int>(answer.motion) == stored;
+    fmt::print("the stored motion {}\n", holds ? "holds" : "does not hold");
+    return exit_done;
+}
+
 int replay(const replay_arguments& given) {
     const map_reader map(given.file);
     const scene scene = scene_of(map);
+    if (is_orbit_diagram(scene)) {
+        throw usage_error(
+            fmt::format("replay {} (an orbit diagram has no cells with a verdict); trace {}?",
+                        given.file, scene.info().name));
+    }
     const std::vector<std::uint64_t> coordinates = coordinates_in(scene, given.cell);
     label_plan plan = plan_labels(scene, cells_of(map.attribute(searched_cells)));
     if (plan.of_cell) plan = plan.of_cell(coordinates);
     const owned_row row = row_of(scene, plan, coordinates);
     print_events(scene, row, given);
     print_start(scene, coordinates);
-    const std::string layer = scene.question.has_labels ? "label" : "outcome";
+    const std::string layer(judged_layer(scene));
     const int stored = stored_value(map, layer, coordinates);
     fmt::print("{:<8} {}\n", "stored", value_name(scene, plan, stored));
+    if (is_chaos_map(scene)) return replay_motion(scene, row.row, stored);
     int best = stored;
     for (const precision value : {precision::binary64, precision::dd, precision::mp50}) {
         const orbit_answer answer = run_cell(scene, plan, coordinates, value, row.row);

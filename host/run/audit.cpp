@@ -3,6 +3,7 @@
 
 #include "host/map/numbers.hpp"
 #include "host/run/estimate.hpp"
+#include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/truth_orbits.hpp"
 #include "host/scene/grid.hpp"
@@ -21,8 +22,16 @@ int compared(const scene& scene, const orbit_answer& answer) {
     return scene.question.has_labels ? answer.label : static_cast<int>(answer.end);
 }
 
+/// The motion in double-double. There is no third opinion: orbits of thousands of returns in 50
+/// digits are out of reach.
+int judged_motion(const scene& scene, const orbit_row& row, int stored) {
+    constexpr int undecided = static_cast<int>(motion::undecided);
+    const int computed = static_cast<int>(run_exponents(scene, row).motion);
+    return stored == undecided || computed == undecided ? stored : computed;
+}
+
 std::size_t compared_layer(const scene& scene, const map_layout& layout) {
-    const std::string_view name = scene.question.has_labels ? "label" : "outcome";
+    const std::string_view name = judged_layer(scene);
     std::size_t index = 0;
     while (layout.layers[index].name != name) ++index;  // both are always stored
     return index;
@@ -68,10 +77,16 @@ std::vector<int> stored_values(const scene& scene, const tile_source& tiles,
 
 }  // namespace
 
+std::string_view judged_layer(const scene& scene) {
+    if (is_chaos_map(scene)) return "motion";
+    return scene.question.has_labels ? "label" : "outcome";
+}
+
 cell_verdict judge(const scene& scene, const label_plan& plan, std::uint64_t cell, int stored) {
     const std::vector<std::uint64_t> coordinates = coordinates_of(scene, cell);
     if (plan.of_cell) return judge(scene, plan.of_cell(coordinates), cell, stored);
     const owned_row row = row_of(scene, plan, coordinates);
+    if (is_chaos_map(scene)) return {cell, stored, judged_motion(scene, row.row, stored)};
     cell_verdict verdict{cell, stored, 0};
     for (const precision value : {precision::dd, precision::mp50}) {
         verdict.computed = compared(scene, run_cell(scene, plan, coordinates, value, row.row));
@@ -104,12 +119,13 @@ audit_report audit(const scene& scene, const label_plan& plan, const tile_source
 
 attribute_list attributes_of(const scene& scene, const audit_report& report,
                              const std::filesystem::path& map) {
-    attribute_list attributes{{"audit_cells", fmt::format("{}", report.n_cells)},
-                              {"audit_wrong", fmt::format("{}", report.n_wrong)},
-                              {"audit_share", fmt::format("{:.17g}", report.share)},
-                              {"audit_interval", fmt::format("{:.17g} to {:.17g} (95 %, Wilson)",
-                                                             report.lowest, report.highest)},
-                              {"audit_method", "dd, disputed cells mp50"}};
+    attribute_list attributes{
+        {"audit_cells", fmt::format("{}", report.n_cells)},
+        {"audit_wrong", fmt::format("{}", report.n_wrong)},
+        {"audit_share", fmt::format("{:.17g}", report.share)},
+        {"audit_interval",
+         fmt::format("{:.17g} to {:.17g} (95 %, Wilson)", report.lowest, report.highest)},
+        {"audit_method", is_chaos_map(scene) ? "motion in dd" : "dd, disputed cells mp50"}};
     if (!report.wrong.empty()) {
         attributes.emplace_back("audit_replay",
                                 fmt::format("hopscotch replay {} --cell {}", map.string(),

@@ -15,7 +15,12 @@
 
 namespace hopscotch {
 
-/// What is compared of a cell: the label where the map has labels, else the outcome.
+/// The layer whose values are judged: the label where the map has labels, the motion of a chaos
+/// map, else the outcome.
+std::string_view judged_layer(const scene& scene);
+
+/// What is compared of a cell. An undecided motion contradicts nothing: `computed` is then
+/// `stored`.
 struct cell_verdict {
     std::uint64_t cell = 0;
     int stored = 0;

@@ -28,9 +28,13 @@ std::string reason_against_gpu() {
 #endif
 }
 
-std::string reason_against(const model_entry& model, backend which) {
+bool is_built(const model_entry& model, backend which, kernel_kind kind) {
+    return kind == kernel_kind::plain ? model.has(which) : model.has_tangent(which);
+}
+
+std::string reason_against(const model_entry& model, backend which, kernel_kind kind) {
     if (std::string reason = reason_against(which); !reason.empty()) return reason;
-    if (model.has(which)) return "";
+    if (is_built(model, which, kind)) return "";
     return fmt::format("{} is not built for it", model.info->name);
 }
 
@@ -50,12 +54,17 @@ std::string reason_against(backend which) {
     return "no such backend";
 }
 
-kernel_choice choose_kernel(const model_entry& model, int variant, std::string_view wanted) {
+kernel_choice choose_kernel(const model_entry& model, int variant, std::string_view wanted,
+                            kernel_kind kind) {
     const bool is_auto = wanted == "auto" || wanted.empty();
     for (const backend which : {backend::avx512, backend::avx2, backend::scalar, backend::cuda}) {
         if (is_auto ? which == backend::cuda : name_of(which) != wanted) continue;
-        const std::string reason = reason_against(model, which);
-        if (reason.empty()) return {which, variant, model.kernel(which, variant)};
+        const std::string reason = reason_against(model, which, kind);
+        if (reason.empty()) {
+            return {which, variant,
+                    kind == kernel_kind::plain ? model.kernel(which, variant)
+                                               : model.tangent(which, variant)};
+        }
         if (!is_auto) {
             throw device_error(fmt::format("--backend {} ({}); --backend auto?", wanted, reason));
         }

@@ -7,6 +7,7 @@
 #include "kernels/contract/entry.hpp"
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,11 @@ inline constexpr std::array<std::string_view, n_backends> backend_names{"scalar"
 constexpr std::string_view name_of(backend which) {
     return backend_names[static_cast<std::size_t>(which)];
 }
+
+enum class kernel_kind : std::uint8_t {
+    plain,
+    tangent,  // with the tangent map and Lyapunov exponents
+};
 
 struct kernel_choice {
     backend which = backend::scalar;
@@ -31,6 +37,7 @@ std::string reason_against(backend which);
 /// The backend of that name; `auto` is the widest one that this processor runs and the model is
 /// built for (never the GPU: it is asked for by name). \error device_error naming what is missing
 /// and what can be had instead
-kernel_choice choose_kernel(const model_entry& model, int variant, std::string_view wanted);
+kernel_choice choose_kernel(const model_entry& model, int variant, std::string_view wanted,
+                            kernel_kind kind = kernel_kind::plain);
 
 }  // namespace hopscotch

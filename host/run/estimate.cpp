@@ -3,6 +3,7 @@
 
 #include "host/run/requests.hpp"
 #include "host/run/backends.hpp"
+#include "host/run/orbit_diagram.hpp"
 #include "host/scene/grid.hpp"
 
 #include <algorithm>
@@ -77,8 +78,8 @@ std::vector<std::uint64_t> sample_cells(std::uint64_t n_cells, std::uint64_t n,
 
 run_estimate estimate(const scene& scene, const run_choices& choices, const run_hooks& hooks) {
     check_is_map(scene);
-    const kernel_choice kernel = choose_kernel(*scene.model, variant_of(scene), choices.backend);
-    const map_layout layout = layout_of(scene);
+    const kernel_choice kernel = kernel_of(scene, choices.backend);
+    const map_layout layout = is_orbit_diagram(scene) ? diagram_layout(scene) : layout_of(scene);
     run_estimate result;
     result.backend = name_of(kernel.which);
     result.n_threads = threads_for(choices.n_threads);
@@ -99,10 +100,10 @@ run_estimate estimate(const scene& scene, const run_choices& choices, const run_
     if (hooks.plan && scene.question.has_labels) plan = hooks.plan(scene, {});
     const sample_timing timing = time_samples(scene, plan, kernel);
     const auto sampled = static_cast<double>(timing.cells);
+    const auto n_cells = static_cast<double>(scene.n_cells());
     result.n_sampled = timing.cells;
     result.undecided = static_cast<double>(timing.undecided) / sampled;
-    result.seconds =
-        timing.seconds / sampled * static_cast<double>(result.n_cells) / result.n_threads;
+    result.seconds = timing.seconds / sampled * n_cells / result.n_threads;
     return result;
 }
 

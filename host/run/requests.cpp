@@ -19,7 +19,8 @@ ensemble_request common_request(const scene& scene, const label_plan& plan) {
         request.parameters[i].values = &scene.parameters[i];
     }
     std::copy(scene.options.begin(), scene.options.end(), request.options);
-    request.max_returns = scene.question.returns;
+    request.max_returns = most_returns_of(scene);
+    if (is_chaos_map(scene)) request.exponents = exponents_of(scene);
     request.max_steps = static_cast<double>(scene.accuracy.max_events);
     request.decided_by = plan.decided_by;
     request.died_label = plan.died_label;
@@ -64,9 +65,37 @@ std::uint64_t point_index(const scene& scene, const label_plan& plan,
 int variant_of(const scene& scene) {
     const parameter_extremes extremes = extremes_of(scene);
     const auto& layers = scene.output.layers;
-    const bool wants_time = std::find(layers.begin(), layers.end(), "time") != layers.end();
+    const bool wants_time = std::any_of(layers.begin(), layers.end(), [](const auto& layer) {
+        return layer == "time" || layer == "lyapunov_rate";
+    });
     return scene.model->variant(
         {extremes.lowest.data(), extremes.highest.data(), scene.options.data(), wants_time});
+}
+
+kernel_choice kernel_of(const scene& scene, std::string_view wanted_backend) {
+    const auto which = is_chaos_map(scene) ? kernel_kind::tangent : kernel_kind::plain;
+    return choose_kernel(*scene.model, variant_of(scene), wanted_backend, which);
+}
+
+bool is_chaos_map(const scene& scene) { return scene.question.kind == "lyapunov"; }
+
+std::uint32_t most_returns_of(const scene& scene) {
+    const auto transient = static_cast<std::uint32_t>(scene.question.number("transient"));
+    return scene.question.returns + transient;
+}
+
+exponent_request exponents_of(const scene& scene) {
+    const scene_question& question = scene.question;
+    const auto whole = [&](std::string_view name) {
+        return static_cast<std::uint32_t>(question.number(name));
+    };
+    exponent_request request;
+    request.transient = whole("transient");
+    request.block = whole("block");
+    request.least_blocks = whole("min_blocks");
+    request.error = question.number("error");
+    request.significance = question.number("significance");
+    return request;
 }
 
 cell_request request_of(const scene& scene, const label_plan& plan, const map_layout& layout,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "host/map/layout.hpp"
+#include "host/run/backends.hpp"
 #include "host/run/label_plan.hpp"
 #include "host/scene/scene.hpp"
 #include "kernels/ensemble/request.hpp"
@@ -21,6 +22,19 @@ struct cell_request {
 
 /// What the kernel chooses its variant by, for the whole map.
 int variant_of(const scene& scene);
+
+/// The kernel that computes the scene's map: with the tangent map where exponents are asked for.
+/// \error device_error as choose_kernel
+kernel_choice kernel_of(const scene& scene, std::string_view wanted_backend);
+
+/// Does the scene ask for Lyapunov exponents?
+bool is_chaos_map(const scene& scene);
+
+/// Returns that an orbit of the map runs for, a transient included.
+std::uint32_t most_returns_of(const scene& scene);
+
+/// How the scene's Lyapunov exponents are estimated; results are not set.
+exponent_request exponents_of(const scene& scene);
 
 /// The cells of one tile, in C order within the box. Results are not set.
 cell_request request_of(const scene& scene, const label_plan& plan, const map_layout& layout,

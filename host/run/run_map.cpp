@@ -3,6 +3,7 @@
 
 #include "host/run/attributes.hpp"
 #include "host/run/open_cells.hpp"
+#include "host/run/orbit_diagram.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/tiles.hpp"
@@ -131,6 +132,7 @@ std::vector<std::uint64_t> search_again(const scene& scene, const run_hooks& hoo
 void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hooks, map_run& run,
                 run_report& report) {
     if (scene.question.has_labels) report.labels = run.counts("label");
+    if (is_chaos_map(scene)) report.motions = run.counts("motion");
     report.outcomes = run.counts("outcome");
     report.attractors = plan.attractors;
     set_shares(report.attractors, report.labels, report.n_cells);
@@ -151,8 +153,9 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
 
 run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks) {
     check_is_map(scene);
+    if (is_orbit_diagram(scene)) return run_diagram(scene, choices);
     const stop_condition stop(choices.walltime);
-    const kernel_choice kernel = choose_kernel(*scene.model, variant_of(scene), choices.backend);
+    const kernel_choice kernel = kernel_of(scene, choices.backend);
     const map_layout layout = layout_of(scene);
     run_report report;
     report.file = choices.file.empty() ? scene.output.file : choices.file;

@@ -43,6 +43,7 @@ struct run_report {
     double seconds = 0.0;         // spent on tiles
     std::vector<attractor_row> attractors;
     value_counts labels;
+    value_counts motions;
     value_counts outcomes;
     std::string hash;
     attribute_list audit;

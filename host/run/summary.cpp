@@ -2,9 +2,11 @@
 #include "host/run/summary.hpp"
 
 #include "host/run/json.hpp"
+#include "kernels/contract/motion.hpp"
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -34,15 +36,25 @@ std::vector<share_row> label_shares(const run_report& report) {
     return rows;
 }
 
-std::vector<share_row> outcome_shares(const run_report& report) {
+/// Shares of the codes of an enumeration, by their names.
+std::vector<share_row> shares_of(const value_counts& counts,
+                                 std::span<const std::string_view> names, std::uint64_t n_cells) {
     std::vector<share_row> rows;
-    for (const auto& [code, cells] : report.outcomes) {
+    for (const auto& [code, cells] : counts) {
         const auto index = static_cast<std::size_t>(code);
-        const bool is_known = index < outcome_names.size();
-        rows.push_back({code, is_known ? std::string(outcome_names[index]) : "not computed", cells,
-                        static_cast<double>(cells) / static_cast<double>(report.n_cells)});
+        const bool is_known = index < names.size();
+        rows.push_back({code, is_known ? std::string(names[index]) : "not computed", cells,
+                        static_cast<double>(cells) / static_cast<double>(n_cells)});
     }
     return rows;
+}
+
+std::vector<share_row> outcome_shares(const run_report& report) {
+    return shares_of(report.outcomes, outcome_names, report.n_cells);
+}
+
+std::vector<share_row> motion_shares(const run_report& report) {
+    return shares_of(report.motions, motion_names, report.n_cells);
 }
 
 void append_shares(std::string& text, std::string_view title, const std::vector<share_row>& rows) {
@@ -88,6 +100,7 @@ std::string text_of(const scene& scene, const run_report& report) {
     text += fmt::format("cells/s          {:.4g}\n", rate_of(report));
     text += fmt::format("lane efficiency  {:.1f} %\n", 100.0 * report.tally.lanes.efficiency());
     append_shares(text, "labels", label_shares(report));
+    append_shares(text, "motion", motion_shares(report));
     append_shares(text, "outcomes", outcome_shares(report));
     for (const auto& [name, value] : report.audit) text += fmt::format("{:<16} {}\n", name, value);
     text += fmt::format("hash             {}\n", report.hash);
@@ -111,6 +124,7 @@ std::string json_of(const scene& scene, const run_report& report) {
     add("cells_per_second", fmt::format("{:.17g}", rate_of(report)));
     add("lane_efficiency", fmt::format("{:.17g}", report.tally.lanes.efficiency()));
     add("labels", json_shares(label_shares(report)));
+    if (!report.motions.empty()) add("motions", json_shares(motion_shares(report)));
     add("outcomes", json_shares(outcome_shares(report)));
     add("audit", json_attributes(report.audit));
     return text + fmt::format("  \"hash\": {}\n}}\n", json_text(report.hash));

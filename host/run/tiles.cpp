@@ -43,6 +43,21 @@ void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::b
         case layer_role::extra:
             request.extras[layer.index] = numbers<double>(buffer);
             break;
+        case layer_role::exponent:
+            request.exponents.exponents[layer.index] = numbers<double>(buffer);
+            break;
+        case layer_role::exponent_rate:
+            request.exponents.rate = numbers<double>(buffer);
+            break;
+        case layer_role::exponent_error:
+            request.exponents.standard_error = numbers<double>(buffer);
+            break;
+        case layer_role::exponent_returns:
+            request.exponents.returns = numbers<std::uint32_t>(buffer);
+            break;
+        case layer_role::motion:
+            request.exponents.motion = numbers<std::uint8_t>(buffer);
+            break;
         case layer_role::period:
         case layer_role::immediate:
             break;

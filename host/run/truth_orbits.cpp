@@ -35,7 +35,7 @@ owned_row row_of(const scene& scene, const label_plan& plan,
     row.variant = variant_of(scene);
     row.columns = result.columns;
     row.parameters = result.parameters;
-    row.returns = scene.question.returns;
+    row.returns = most_returns_of(scene);
     row.max_steps = static_cast<double>(scene.accuracy.max_events);
     row.decided_by = plan.decided_by;
     row.died_label = plan.died_label;
@@ -76,12 +76,24 @@ orbit_answer run_cell(const scene& scene, const label_plan& plan,
     return answer;
 }
 
-orbit_answer run_orbit(const model_entry& model, precision value, const orbit_row& row) {
+namespace {
+
+const orbit_functions& orbits_of(const model_entry& model) {
     if (model.orbits_table == nullptr) {
         throw std::invalid_argument(
             fmt::format("{} is built without single orbits", model.info->name));
     }
-    const orbit_functions& orbits = model.orbits();
+    return model.orbits();
+}
+
+}  // namespace
+
+exponent_answer run_exponents(const scene& scene, const orbit_row& row) {
+    return orbits_of(*scene.model).exponents(row, exponents_of(scene));
+}
+
+orbit_answer run_orbit(const model_entry& model, precision value, const orbit_row& row) {
+    const orbit_functions& orbits = orbits_of(model);
     switch (value) {
         case precision::binary64:
             return orbits.run_double(row);

@@ -40,4 +40,8 @@ orbit_answer run_cell(const scene& scene, const label_plan& plan,
 /// \error std::invalid_argument where the model is built without single orbits
 orbit_answer run_orbit(const model_entry& model, precision value, const orbit_row& row);
 
+/// Lyapunov exponents of one cell of a chaos map, in double-double.
+/// \error std::invalid_argument where the model is built without single orbits
+exponent_answer run_exponents(const scene& scene, const orbit_row& row);
+
 }  // namespace hopscotch

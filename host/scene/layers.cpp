@@ -1,6 +1,8 @@
 // The layers that a scene's map can have.
 #include "host/scene/layers.hpp"
 
+#include "kernels/contract/motion.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -28,16 +30,54 @@ layer_plan plan(layer_role role, std::string name, number_type type, std::string
 layer_plan state_plan(const scene& scene, int index) {
     const column_info& column = scene.end_section().columns[static_cast<std::size_t>(index)];
     const std::string name(column.name);
-    layer_plan result =
-        plan(layer_role::state, name, number_type::float64, std::string(column.unit),
-             std::string(column.meaning) + ", after the last return", nan, index);
-    const bool is_axis = std::any_of(scene.axes.begin(), scene.axes.end(),
+    layer_plan result = plan(
+        layer_role::state, name, number_type::float64, std::string(column.unit),
+        std::string(column.meaning) +
+            (scene.question.kind == "orbit_diagram" ? ", recorded" : ", after the last return"),
+        nan, index);
+    // an orbit diagram's axes after the first are starts, not axes of its file
+    const auto last =
+        scene.question.kind == "orbit_diagram" ? scene.axes.begin() + 1 : scene.axes.end();
+    const bool is_axis = std::any_of(scene.axes.begin(), last,
                                      [&](const scene_axis& axis) { return axis.name == name; });
     if (is_axis) {
         result.alias = name;  // a dimension scale of that name is already in the file
         result.description.name = "last_" + name;
     }
     return result;
+}
+
+std::vector<std::pair<int, std::string>> motion_flags() {
+    std::vector<std::pair<int, std::string>> flags;
+    for (std::size_t code = 0; code < motion_names.size(); ++code) {
+        flags.emplace_back(static_cast<int>(code), std::string(motion_names[code]));
+    }
+    return flags;
+}
+
+/// The layers of a chaos map: one exponent per column of the section.
+void add_exponents(const scene& scene, std::vector<layer_plan>& layers) {
+    const auto number = number_type::float64;
+    layers.push_back(plan(layer_role::motion, "motion", number_type::uint8, "1",
+                          "what the largest Lyapunov exponent says", 255.0));
+    layers.back().description.flags = motion_flags();
+    layers.push_back(plan(layer_role::exponent, "lyapunov", number, "1",
+                          "largest Lyapunov exponent, per return", nan));
+    const int n_columns = static_cast<int>(scene.end_section().columns.size());
+    for (int k = 1; k < n_columns; ++k) {
+        const std::string place = std::to_string(k + 1);
+        layers.push_back(plan(layer_role::exponent, "lyapunov_" + place, number, "1",
+                              "Lyapunov exponent " + place + ", per return", nan, k));
+    }
+    layers.push_back(plan(layer_role::exponent_error, "lyapunov_error", number, "1",
+                          "standard error of the largest exponent, from block means", nan));
+    const std::string unit(scene.info().time_unit);
+    layers.push_back(plan(layer_role::exponent_rate, "lyapunov_rate", number,
+                          unit == "1" ? unit : unit + "-1",
+                          "largest Lyapunov exponent, per unit of time", nan));
+    layers.push_back(plan(layer_role::exponent_returns, "lyapunov_returns", number_type::uint32,
+                          "1", "returns that the exponents rest on",
+                          std::numeric_limits<std::uint32_t>::max()));
 }
 
 }  // namespace
@@ -57,9 +97,15 @@ std::vector<layer_plan> available_layers(const scene& scene) {
                  "attractor in whose immediate one-sided basin the start lies (0 = none)", -1.0));
         layers.back().description.holds_labels = true;
     }
+    if (scene.question.kind == "lyapunov") add_exponents(scene, layers);
     layers.push_back(plan(layer_role::outcome, "outcome", number_type::uint8, "1",
                           "why the orbit's computation ended", 255.0));
     layers.back().description.flags = outcome_flags();
+    const int n_columns = static_cast<int>(scene.end_section().columns.size());
+    if (scene.question.kind == "orbit_diagram") {
+        for (int index = 0; index < n_columns; ++index) layers.push_back(state_plan(scene, index));
+        return layers;
+    }
     layers.push_back(plan(layer_role::returns, "returns", number_type::uint32, "1",
                           "completed returns", no_count));
     layers.push_back(plan(layer_role::events, "events", number_type::uint32, "1",
@@ -67,7 +113,6 @@ std::vector<layer_plan> available_layers(const scene& scene) {
     layers.push_back(plan(layer_role::time, "time", number_type::float64,
                           std::string(scene.info().time_unit), "time from the start to the end",
                           nan));
-    const int n_columns = static_cast<int>(scene.end_section().columns.size());
     for (int index = 0; index < n_columns; ++index) layers.push_back(state_plan(scene, index));
     int index = 0;
     for (const extra_info& extra : scene.info().extras) {

@@ -21,7 +21,12 @@ enum class layer_role : std::uint8_t {
     period,
     immediate,
     state,
-    extra
+    extra,
+    exponent,
+    exponent_rate,
+    exponent_error,
+    exponent_returns,
+    motion
 };
 
 struct layer_plan {

@@ -13,8 +13,16 @@ constexpr std::array<names, 4> one_sided_layers{"label", "immediate", "outcome",
 constexpr std::array<names, 4> period_layers{"period", "label", "outcome", "returns"};
 constexpr std::array<names, 2> state_layers{"state", "outcome"};
 constexpr std::array<names, 3> fall_layers{"returns", "outcome", "time"};
+constexpr std::array<names, 4> exponent_layers{"motion", "lyapunov", "lyapunov_error", "outcome"};
 
-constexpr std::array<question_number, 1> transient{{{"transient", 1000.0, 0.0, true}}};
+constexpr std::array<question_number, 2> diagram_numbers{
+    {{"transient", 1000.0, 0.0, true}, {"sweeps", 1.0, 0.0, true}}};
+// 120 returns per block: a multiple of most short periods
+constexpr std::array<question_number, 5> exponent_numbers{{{"transient", 1000.0, 1.0, true},
+                                                           {"block", 120.0, 1.0, true},
+                                                           {"min_blocks", 16.0, 8.0, true},
+                                                           {"error", 0.0, 0.0, false},
+                                                           {"significance", 3.0, 0.0, false}}};
 
 // samples: cells to search attractors from at every parameter point, 0 for as many as suit their
 // number
@@ -39,9 +47,10 @@ constexpr std::array<question_kind, 8> kinds{{
      1000,
      {},
      fall_layers},
-    {"lyapunov", "the largest Lyapunov exponent", false, false, 1000, transient, state_layers},
-    {"orbit_diagram", "the states that orbits settle on, over a parameter", false, false, 1000,
-     transient, state_layers},
+    {"lyapunov", "Lyapunov exponents, and whether orbits move chaotically", false, true, 10000,
+     exponent_numbers, exponent_layers, 50},
+    {"orbit_diagram", "the states that orbits settle on, over a parameter", false, true, 200,
+     diagram_numbers, state_layers, 0},
     {"branch", "periodic orbits continued over a parameter", false, false, 1, continuation,
      state_layers},
 }};

@@ -23,6 +23,7 @@ struct question_kind {
     std::uint32_t standard_returns;
     std::span<const question_number> numbers;
     std::span<const std::string_view> standard_layers;  // "state" stands for all state columns
+    std::uint64_t standard_audit_cells = 1000;
 };
 
 std::span<const question_kind> question_kinds();

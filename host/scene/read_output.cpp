@@ -86,7 +86,8 @@ void add_layer(std::vector<std::string>& layers, const std::string& name) {
     if (std::find(layers.begin(), layers.end(), name) == layers.end()) layers.push_back(name);
 }
 
-/// The label (where there is one) and the outcome are always stored: shares are counted from them.
+/// The label or motion (where there is one) and the outcome are always stored: shares are counted
+/// from them.
 void read_layers(scene& scene, const table_reader& table) {
     const std::vector<layer_plan> available = available_layers(scene);
     std::vector<std::string_view> known;
@@ -105,6 +106,7 @@ void read_layers(scene& scene, const table_reader& table) {
         add_layer(layers, found->description.name);
     }
     if (scene.question.has_labels) add_layer(layers, "label");
+    if (scene.question.kind == "lyapunov") add_layer(layers, "motion");
     add_layer(layers, "outcome");
 }
 

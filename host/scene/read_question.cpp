@@ -28,7 +28,9 @@ void read_number(scene& scene, const table_reader& table, const question_number&
     if (value && *value < number.least) {
         table.refuse(number.name, fmt::format("must be at least {}", number.least));
     }
-    if (value && number.is_whole) table.whole(number.name, static_cast<std::int64_t>(number.least));
+    if (value && number.is_whole) {
+        table.whole(number.name, static_cast<std::int64_t>(number.least), most_returns);
+    }
     scene.question.numbers.emplace(number.name, value.value_or(number.standard));
 }
 
@@ -58,6 +60,7 @@ void read_accuracy(scene& scene, const table_reader& root) {
     if (std::find(precisions.begin(), precisions.end(), accuracy.precision) == precisions.end()) {
         table.refuse("precision", "no such precision", suggest(accuracy.precision, precisions));
     }
+    accuracy.audit_cells = find_question(scene.question.kind)->standard_audit_cells;
     accuracy.audit_cells =
         static_cast<std::uint64_t>(table.whole("audit_cells", 0, 1'000'000'000)
                                        .value_or(static_cast<std::int64_t>(accuracy.audit_cells)));

@@ -26,12 +26,17 @@ struct model_entry {
     double (*turn)(int section, int column, const double* parameters);
     // Tables are reached through pointers to them, so that no unit depends on another's
     // initialisation.
-    const ensemble_function* const* kernels[n_backends];  // per backend; null where not built
+    const ensemble_function* const* kernels[n_backends];   // per backend; null where not built
+    const ensemble_function* const* tangents[n_backends];  // the same with exponents
     const orbit_functions* const* orbits_table;
 
     bool has(backend which) const { return kernels[static_cast<int>(which)] != nullptr; }
     ensemble_function kernel(backend which, int compiled_variant) const {
         return (*kernels[static_cast<int>(which)])[compiled_variant];
+    }
+    bool has_tangent(backend which) const { return tangents[static_cast<int>(which)] != nullptr; }
+    ensemble_function tangent(backend which, int compiled_variant) const {
+        return (*tangents[static_cast<int>(which)])[compiled_variant];
     }
     const orbit_functions& orbits() const { return **orbits_table; }
 };

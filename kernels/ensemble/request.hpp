@@ -43,6 +43,21 @@ enum class decision : std::uint8_t {
     ellipsoids,   // the model's own proof, where it has one, or entering a trap ellipsoid
 };
 
+/// How Lyapunov exponents are estimated, and where they go; only tangent ensembles look at it.
+struct exponent_request {
+    std::uint32_t transient = 1000;   // returns left out first, at least 1
+    std::uint32_t block = 100;        // returns per block mean
+    std::uint32_t least_blocks = 16;  // before an estimate may stop early
+    double error = 0.0;               // standard error at which it stops early; 0: never
+    double significance = 3.0;        // standard errors from zero that decide the motion
+
+    double* exponents[most_columns] = {};  // per return, largest first
+    double* rate = nullptr;                // the largest per unit of time
+    double* standard_error = nullptr;      // of the largest per return
+    std::uint32_t* returns = nullptr;      // that the estimate rests on
+    std::uint8_t* motion = nullptr;        // see contract/motion.hpp
+};
+
 /// One rectangle of cells (or list of rows) for one kernel call. Null results are not wanted.
 struct ensemble_request {
     std::uint64_t n_cells = 0;
@@ -70,6 +85,7 @@ struct ensemble_request {
     double* time = nullptr;
     double* state[most_columns] = {};
     double* extras[most_extras] = {};
+    exponent_request exponents;
 };
 
 /// How full the lanes were: steps that advanced a trajectory over steps issued.

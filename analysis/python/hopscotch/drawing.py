@@ -9,9 +9,12 @@ def draw(dataset, layer, names, colours, ax, cells):
     """Draws a layer along its first (to the right) and second axis (upward)."""
     import matplotlib.pyplot as plt
 
-    layer, remarks = _slice(layer, cells)
+    is_diagram = layer.dims[1:] == ("orbit", "sample") and not names and not cells
+    layer, remarks = (layer, []) if is_diagram else _slice(layer, cells)
     ax = ax if ax is not None else plt.subplots(layout="constrained")[1]
-    if layer.ndim == 1 and not names:
+    if is_diagram:
+        _diagram(ax, layer)
+    elif layer.ndim == 1 and not names:
         _dots(ax, layer)
     elif names:
         _names(ax, layer, names, colours)
@@ -86,6 +89,17 @@ def _dots(ax, layer):
     numbers = np.asarray(layer.values, dtype=float)
     numbers = np.where(numbers == layer.attrs.get("_FillValue", np.nan), np.nan, numbers)
     ax.plot(layer[layer.dims[0]].values, numbers, ".", markersize=2.0, color="#0072b2")
+    ax.set_ylabel(_title(layer))
+
+
+def _diagram(ax, layer):
+    """Recorded states over the first axis: starts below, sweeps above them in colours of their own."""
+    sweeps = {0: ("#0072b2", "rising"), 1: ("#e69f00", "falling")}
+    across = np.repeat(layer[layer.dims[0]].values, layer.sizes["sample"])
+    for orbit in sorted(layer["orbit"].values.tolist(), reverse=True):
+        colour, name = sweeps.get(orbit, ("#b0b0b0", None))
+        states = layer.sel(orbit=orbit).values.ravel()
+        ax.plot(across, states, ",", color=colour, label=name, rasterized=True)
     ax.set_ylabel(_title(layer))
 
 

@@ -1,0 +1,384 @@
+// Lyapunov exponents of the models against closed forms and the model pages' numbers, and the same
+// bits from every backend.
+#include "analysis/orbit/orbit_functions.hpp"
+#include "host/run/estimate.hpp"
+#include "host/run/requests.hpp"
+#include "host/scene/grid.hpp"
+#include "tests/models/exponent_cells.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+
+namespace hopscotch {
+namespace {
+
+using testing_models::exponent_cells;
+using testing_models::spread;
+
+/// The median over the cells whose motion is the one given; counts them.
+double median_of(const exponent_cells& cells, const std::vector<double>& values, enum motion wanted,
+                 std::size_t& n) {
+    std::vector<double> chosen;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (cells.motion_of(i) == wanted) chosen.push_back(values[i]);
+    }
+    n = chosen.size();
+    if (n == 0) return 0.0;
+    std::nth_element(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(n / 2),
+                     chosen.end());
+    return chosen[n / 2];
+}
+
+TEST(exponents_of_pneumatic_map, are_the_logarithm_of_the_fixed_points_multiplier) {
+    for (const double gain : {1.5, 2.5, 4.0, 5.5, 7.0}) {
+        exponent_cells cells{"raibert_pneumatic_simple", "energy", {{1.0, 0.3}}, {{"gain", gain}}};
+        cells.compute();
+        for (std::size_t i = 0; i < 2; ++i) {
+            EXPECT_NEAR(cells.exponents[0][i], std::log(std::abs(1.0 - std::log(gain))), 1e-12);
+            EXPECT_EQ(cells.motion_of(i), motion::periodic);
+        }
+    }
+}
+
+/// Page, section 5: the exponent is the average of ln |1 - E_n|, the rest telescopes.
+double average_over_energies(double gain, std::uint32_t transient, std::uint32_t returns) {
+    double energy = 1.0;
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < transient + returns; ++i) {
+        if (i >= transient) sum += std::log(std::abs(1.0 - energy));
+        energy = gain * energy * std::exp(-energy);
+    }
+    return sum / returns;
+}
+
+TEST(exponents_of_pneumatic_map, in_chaos_are_the_average_of_ln_1_minus_E_in_every_coordinate) {
+    for (const double gain : {15.0, 16.6, 18.0, 21.0}) {
+        const double truth = average_over_energies(gain, 1000, 2000000);
+        for (const auto& [section, start] :
+             {std::pair{"energy", 1.0}, std::pair{"bottom", 0.2}, std::pair{"touchdown", 3.0}}) {
+            exponent_cells cells{"raibert_pneumatic_simple", section, {{start}}, {{"gain", gain}}};
+            cells.returns = 120000;
+            cells.compute();
+            EXPECT_NEAR(cells.exponents[0][0], truth, 5.0 * cells.error[0]) << gain << section;
+            EXPECT_LT(cells.error[0], 3e-3);
+            EXPECT_EQ(cells.motion_of(0), motion::chaotic);
+        }
+    }
+}
+
+TEST(exponents_of_line_juggler, are_ln_3_where_it_is_the_chebyshev_cubic) {
+    // a = 1 + B = 3 with B = (1 + restitution) energy_gain gravity target_height
+    exponent_cells cells{"mirror_line",
+                         "apex",
+                         {spread(0.05, 1.8, 20)},
+                         {{"restitution", 0.5},
+                          {"gravity", 1.0},
+                          {"target_height", 1.0},
+                          {"energy_gain", 2.0 / 1.5}}};
+    cells.compute();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        EXPECT_NEAR(cells.exponents[0][i], std::log(3.0), 3.0 * cells.error[i] + 1e-3);
+        EXPECT_EQ(cells.motion_of(i), motion::chaotic);
+    }
+}
+
+/// Page, section 4: the transverse exponents of vertical motion under the solvable law, with
+/// kappa11 = b_x* / (2 V) and kappa10 T = 0.3 kappa11.
+TEST(exponents_of_planar_juggler, tell_that_horizontal_regulation_survives_vertical_chaos) {
+    const double speed = std::sqrt(2.0);  // V at height 1, gravity 1
+    const double velocity_gain = 0.5 / speed;
+    for (const auto& [b, transverse] :
+         {std::pair{0.8, -0.602}, std::pair{1.38, -0.554}, std::pair{1.53, -0.486}}) {
+        exponent_cells cells{"mirror_planar",
+                             "apex",
+                             {{1.0}, {0.8}, {0.0}},
+                             {{"restitution", 0.5},
+                              {"gravity", 1.0},
+                              {"target_height", 1.0},
+                              {"target_x", 1.0},
+                              {"gain_offset", 1.0 / 3.0},  // tuned
+                              {"energy_gain", b / 1.5},
+                              {"velocity_gain", velocity_gain},
+                              {"position_gain", 0.3 * velocity_gain / speed}},
+                             {1}};
+        cells.returns = 60000;
+        cells.compute();
+        double nearest = 1e9;
+        for (const auto& exponent : cells.exponents) {
+            nearest = std::min(nearest, std::abs(exponent[0] - transverse));
+        }
+        EXPECT_LT(nearest, 2e-3) << "B = " << b;  // three digits, and the mean of 6e4 cycles
+        if (b != 1.38) EXPECT_EQ(cells.motion_of(0), b > 1.0 ? motion::chaotic : motion::periodic);
+    }
+}
+
+exponent_cells clocked_hopper(double thrust, double on, double period, std::size_t n) {
+    std::vector<double> heights;
+    std::vector<double> velocities;
+    for (const double y : spread(-0.004, 0.002, n)) {
+        for (const double v : spread(-0.1, 0.1, n)) heights.push_back(y), velocities.push_back(v);
+    }
+    return {"openloop_hopper",
+            "strobe",
+            {heights, velocities},
+            {{"thrust", thrust}, {"thrust_time", on}, {"stride_period", period}}};
+}
+
+TEST(exponents_of_clocked_hopper, without_hops_are_the_damping_of_the_leg) {
+    exponent_cells cells{"openloop_hopper",
+                         "strobe",
+                         {{-0.001}, {0.0}},
+                         {{"thrust", 2.5}, {"thrust_time", 0.02}, {"stride_period", 0.15}}};
+    cells.compute();
+    // -zeta w; a spiral's length varies along a turn, by less than a factor e over 1500 s
+    EXPECT_NEAR(cells.rate[0], -6.0, 2e-3);
+    // lambda1 + lambda2 = -2 zeta w times the share of stance, here all of it
+    EXPECT_NEAR((cells.exponents[0][0] + cells.exponents[1][0]) / 0.15, -12.0, 1e-9);
+    EXPECT_EQ(cells.motion_of(0), motion::periodic);
+}
+
+TEST(exponents_of_clocked_hopper, are_the_pages_beside_a_regular_motion) {
+    for (const auto& [period, rate] : {std::pair{0.24, 3.6}, std::pair{0.245, 2.7}}) {
+        exponent_cells cells = clocked_hopper(1.55, 0.2, period, 12);
+        cells.compute();
+        std::size_t n = 0;
+        EXPECT_NEAR(median_of(cells, cells.rate, motion::chaotic, n), rate, 0.3) << period;
+        EXPECT_GT(n, 5u);
+        const double regular = median_of(cells, cells.rate, motion::periodic, n);
+        EXPECT_LT(regular, 0.0);
+        EXPECT_GT(n, 5u);
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const double sum = (cells.exponents[0][i] + cells.exponents[1][i]) / period;
+            EXPECT_GT(sum, -12.0 - 1e-9);
+            EXPECT_LT(sum, 0.0);
+        }
+    }
+}
+
+TEST(exponents_of_clocked_hopper, are_about_5_per_second_at_high_stride_rates) {
+    for (const double period : {0.08, 0.09, 0.1}) {
+        exponent_cells cells = clocked_hopper(6.5, 0.02, period, 5);
+        cells.compute();
+        std::size_t n = 0;
+        EXPECT_NEAR(median_of(cells, cells.rate, motion::chaotic, n), 5.0, 1.5) << period;
+        EXPECT_GT(n, 20u);
+    }
+}
+
+TEST(exponents_of_paddle_juggler, add_up_to_2_ln_of_the_restitution) {
+    exponent_cells cells{"paddle_juggler",
+                         "impact",
+                         {spread(0.0, 6.2, 40), spread(2.0, 9.0, 40)},
+                         {{"amplitude", 1.6}, {"restitution", 0.5}}};
+    cells.compute();
+    std::size_t n_bouncing = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const double sum = cells.exponents[0][i] + cells.exponents[1][i];
+        if (!std::isfinite(sum)) continue;
+        ++n_bouncing;
+        // ln of the ratio of two relative velocities, over 1e4 impacts
+        EXPECT_NEAR(sum, 2.0 * std::log(0.5), 2e-3);
+    }
+    EXPECT_GT(n_bouncing, 8u);
+}
+
+TEST(exponents_of_a_runner, are_positive_below_the_gap_on_a_linear_spring) {
+    // Page: a counterexample to "chaos not observed for the linear spring"
+    for (const auto& [speed, truth] : {std::pair{3.955, 0.267}, std::pair{3.968, 0.464}}) {
+        const std::vector<double> angles = spread(0.1, 0.7, 30);
+        exponent_cells cells{
+            "slip",
+            "touchdown",
+            {std::vector<double>(angles.size(), speed), angles},
+            {{"leg_length", 1.5}, {"stiffness", 10.0}, {"touchdown_angle", 0.78539816339744828}},
+            {0, 1}};
+        cells.compute();
+        std::size_t n = 0;
+        EXPECT_NEAR(median_of(cells, cells.exponents[0], motion::chaotic, n), truth, 0.015)
+            << speed;
+        EXPECT_GT(n, 3u);
+        // the speed is conserved in flight and stance: its direction is neutral
+        EXPECT_NEAR(median_of(cells, cells.exponents[1], motion::chaotic, n), 0.0, 2e-3);
+    }
+}
+
+TEST(exponents_of_a_runner, leave_a_stable_gait_undecided_because_its_speed_is_neutral) {
+    exponent_cells cells{
+        "slip",
+        "touchdown",
+        {{1.6}, {0.35}},
+        {{"leg_length", 0.173}, {"stiffness", 0.01839}, {"touchdown_angle", 0.961}},
+        {1, 1}};
+    cells.compute();
+    EXPECT_EQ(cells.end_of(0), outcome::ok);
+    const int options[] = {1, 1};
+    const double parameters[] = {1.0, 0.173, 0.01839, 9.81, 0.961};
+    double start[] = {1.6, 0.35};
+    jet_query query{.section = 0, .options = options, .columns = start, .parameters = parameters};
+    query.variant = find_model("slip")->variant({parameters, parameters, options});
+    query.returns = 5000;
+    start[1] = find_model("slip")->orbits().jet(query).state[1];
+    query.returns = 1;
+    const double multiplier = std::abs(find_model("slip")->orbits().jet(query).derivative[1][1]);
+    EXPECT_NEAR(cells.exponents[0][0], 0.0, 1e-6);
+    // ln |lambda2| of the gait, from the derivative of the map at the settled angle
+    EXPECT_NEAR(cells.exponents[1][0], std::log(multiplier), 1e-9);
+    EXPECT_EQ(cells.motion_of(0), motion::undecided);
+}
+
+/// Scenes that can be asked for exponents: one whose question has keys of its own cannot.
+std::vector<scene> every_scene(const std::vector<std::string>& overrides) {
+    std::vector<scene> scenes;
+    for (const auto& file :
+         std::filesystem::directory_iterator(HOPSCOTCH_SOURCE "/configs/scenes")) {
+        if (file.path().extension() != ".toml") continue;
+        try {
+            scenes.push_back(read_scene(file.path(), overrides));
+        } catch (const scene_error&) {
+            continue;
+        }
+    }
+    return scenes;
+}
+
+/// ln |det| of the derivative of `returns` returns that follow a transient; NaN where there are
+/// none.
+double log_determinant(const scene& scene, std::uint64_t cell, std::uint32_t transient,
+                       std::uint32_t returns) {
+    const double none = std::nan("");
+    const cell_start start = start_of(scene, coordinates_of(scene, cell));
+    jet_query query{.section = scene.section, .options = scene.options.data()};
+    query.variant = scene.model->variant(
+        {start.parameters.data(), start.parameters.data(), scene.options.data()});
+    query.columns = start.columns.data();
+    query.parameters = start.parameters.data();
+    query.returns = transient;
+    query.max_steps = static_cast<double>(scene.accuracy.max_events);
+    const return_jet settled = scene.model->orbits().jet(query);
+    if (settled.end != outcome::ok) return none;
+    query.section = scene.start_section().returns_to;
+    query.returns = 1;
+    const auto n = static_cast<Eigen::Index>(scene.end_section().columns.size());
+    double state[most_columns];
+    std::copy(std::begin(settled.state), std::end(settled.state), state);
+    query.columns = state;
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < returns; ++i) {
+        const return_jet jet = scene.model->orbits().jet(query);
+        if (jet.end != outcome::ok) return none;
+        Eigen::MatrixXd derivative(n, n);
+        for (Eigen::Index row = 0; row < n; ++row) {
+            for (Eigen::Index c = 0; c < n; ++c) derivative(row, c) = jet.derivative[row][c];
+        }
+        sum += std::log(std::abs(derivative.determinant()));
+        std::copy(std::begin(jet.state), std::end(jet.state), state);
+    }
+    return sum;
+}
+
+TEST(exponents_of_every_scene, add_up_to_the_determinant_of_the_return_map) {
+    constexpr std::uint32_t transient = 25;
+    constexpr std::uint32_t block = 6;
+    const std::vector<std::string> short_run{"question.kind=\"lyapunov\"",
+                                             "question.returns=6",
+                                             "question.transient=25",
+                                             "question.block=6",
+                                             "output.layers=[\"lyapunov_rate\"]",
+                                             "accuracy.max_events=2000"};
+    std::size_t n_compared = 0;
+    for (const scene& scene : every_scene(short_run)) {
+        const std::size_t n_columns = scene.end_section().columns.size();
+        const std::vector<std::uint64_t> chosen = sample_cells(scene.n_cells(), 40, 5);
+        cell_request cells = request_of(scene, {}, chosen);
+        std::vector<std::vector<double>> exponents(n_columns, std::vector<double>(chosen.size()));
+        for (std::size_t k = 0; k < n_columns; ++k) {
+            cells.request.exponents.exponents[k] = exponents[k].data();
+        }
+        kernel_of(scene, "auto").run(cells.request);
+        std::size_t n_here = 0;
+        std::size_t n_off = 0;
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            double sum = 0.0;
+            for (const auto& exponent : exponents) sum += block * exponent[i];
+            const double truth = log_determinant(scene, chosen[i], transient, block);
+            if (!std::isfinite(sum) || !std::isfinite(truth) || truth < -60.0) continue;
+            ++n_here;
+            n_off += std::abs(sum - truth) > 1e-6 ? 1 : 0;
+        }
+        // next to a grazing contact six returns magnify the rounding of one
+        EXPECT_LE(n_off, n_here / 10) << scene.name << ": " << n_off << " of " << n_here;
+        n_compared += n_here;
+    }
+    EXPECT_GT(n_compared, 400u);
+}
+
+/// Results of one kernel call, as bits.
+struct exponent_layers {
+    std::vector<double> numbers;
+    std::vector<std::uint32_t> counts;
+    std::vector<std::uint8_t> codes;
+
+    exponent_layers(cell_request& cells, const kernel_choice& kernel) {
+        const std::size_t n = cells.request.n_cells;
+        numbers.assign(6 * n, 0.0);
+        counts.assign(2 * n, 0);
+        codes.assign(2 * n, 0);
+        exponent_request& to = cells.request.exponents;
+        for (std::size_t k = 0; k < 4; ++k) to.exponents[k] = numbers.data() + k * n;
+        to.standard_error = numbers.data() + 4 * n;
+        to.rate = numbers.data() + 5 * n;
+        to.returns = counts.data();
+        to.motion = codes.data();
+        cells.request.returns = counts.data() + n;
+        cells.request.outcome = codes.data() + n;
+        kernel.run(cells.request);
+    }
+    std::size_t n_different(const exponent_layers& other) const {
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            const bool both_nan = numbers[i] != numbers[i] && other.numbers[i] != other.numbers[i];
+            const bool same = std::bit_cast<std::uint64_t>(numbers[i]) ==
+                              std::bit_cast<std::uint64_t>(other.numbers[i]);
+            n += both_nan || same ? 0 : 1;
+        }
+        for (std::size_t i = 0; i < counts.size(); ++i) n += counts[i] == other.counts[i] ? 0 : 1;
+        for (std::size_t i = 0; i < codes.size(); ++i) n += codes[i] == other.codes[i] ? 0 : 1;
+        return n;
+    }
+};
+
+TEST(exponents_of_every_scene, have_the_same_bits_on_every_backend) {
+    const std::vector<std::string> as_chaos_map{"question.kind=\"lyapunov\"",
+                                                "question.returns=300",
+                                                "question.transient=30",
+                                                "question.block=20",
+                                                "question.error=0.005",
+                                                "question.min_blocks=8",
+                                                "output.layers=[\"lyapunov_rate\"]",
+                                                "accuracy.max_events=2000"};
+    std::size_t n_scenes = 0;
+    std::size_t n_numbers = 0;
+    for (const scene& scene : every_scene(as_chaos_map)) {
+        const std::vector<std::uint64_t> chosen = sample_cells(scene.n_cells(), 60, 3);
+        cell_request cells = request_of(scene, {}, chosen);
+        const exponent_layers reference(cells, kernel_of(scene, "scalar"));
+        for (const double x : reference.numbers) n_numbers += std::isfinite(x) && x != 0.0 ? 1 : 0;
+        ++n_scenes;
+        for (const backend which : {backend::avx2, backend::avx512}) {
+            if (!reason_against(which).empty()) continue;
+            const exponent_layers other(cells, kernel_of(scene, name_of(which)));
+            EXPECT_EQ(reference.n_different(other), 0u) << scene.name << " " << name_of(which);
+        }
+    }
+    EXPECT_GT(n_scenes, 25u);
+    EXPECT_GT(n_numbers, 5000u);
+}
+
+}  // namespace
+}  // namespace hopscotch
