@@ -178,7 +178,13 @@ std::string length_note(const map_analysis& result) {
     for (const axis& each : result.grid.axes)
         parts.push_back(each.name + " in " + length_text(each));
     std::string text = fmt::format("\nlengths: {}\n", fmt::join(parts, ", "));
-    for (const std::string& problem : result.problems) text += problem + "\n";
+    constexpr std::size_t most = 5;  // all of them are in the JSON
+    for (std::size_t i = 0; i < std::min(most, result.problems.size()); ++i) {
+        text += result.problems[i] + "\n";
+    }
+    if (result.problems.size() > most) {
+        text += fmt::format("and {} more tiles\n", result.problems.size() - most);
+    }
     return text;
 }
 
