@@ -1,9 +1,10 @@
-// SUNDIALS CVODE as the solver of the physical hopper: Adams with fixed-point iteration and CVODE's
-// own rootfinding (Illinois), which knows that a root at the launch itself does not count.
+// SUNDIALS CVODE as the solver of a hybrid system: Adams with fixed-point iteration and CVODE's own
+// rootfinding (Illinois), which knows that a root at the beginning of a phase does not count.
 #pragma once
 
-#include "bench/physical_hopper.hpp"
+#include "bench/hybrid_system.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <cvode/cvode.h>
@@ -13,115 +14,86 @@
 
 namespace hopscotch::bench {
 
-/// One CVODE memory: N states, some events.
-template <int N>
-class cvode_problem {
+template <hybrid_system System>
+class cvode_solver {
 public:
-    using state = std::array<double, N>;
+    static constexpr const char* name = "SUNDIALS CVODE Adams + rootfinding";
 
-    cvode_problem(physical_hopper& hopper, CVRhsFn rates, double tolerance, CVRootFn events,
-                  std::initializer_list<int> directions) {
+    /// \param tolerance  absolute and relative
+    explicit cvode_solver(double tolerance) {
 #if SUNDIALS_VERSION_MAJOR >= 7
         check(SUNContext_Create(SUN_COMM_NULL, &context_));
 #else
         check(SUNContext_Create(nullptr, &context_));
 #endif
-        y_ = N_VNew_Serial(N, context_);
+        y_ = N_VNew_Serial(n_states, context_);
         N_VConst(0.0, y_);
         memory_ = CVodeCreate(CV_ADAMS, context_);
         check(CVodeInit(memory_, rates, 0.0, y_));
         check(CVodeSStolerances(memory_, tolerance, tolerance));
-        check(CVodeSetUserData(memory_, &hopper));
         check(CVodeSetMaxNumSteps(memory_, 1000000));
         iteration_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
         check(CVodeSetNonlinearSolver(memory_, iteration_));
-        check(CVodeRootInit(memory_, static_cast<int>(directions.size()), events));
-        std::array<int, 2> wanted{};
-        std::copy(directions.begin(), directions.end(), wanted.begin());
-        check(CVodeSetRootDirection(memory_, wanted.data()));
+        check(CVodeRootInit(memory_, System::n_guards, guards));
+        std::array<int, System::n_guards> falling;
+        falling.fill(-1);
+        check(CVodeSetRootDirection(memory_, falling.data()));
         check(CVodeSetNoInactiveRootWarn(memory_));
+#if SUNDIALS_VERSION_MAJOR < 7
+        CVodeSetErrFile(memory_, nullptr);  // a failed step is counted as lost, not printed
+#endif
     }
-    ~cvode_problem() {
+    ~cvode_solver() {
         CVodeFree(&memory_);
         SUNNonlinSolFree(iteration_);
         N_VDestroy(y_);
         SUNContext_Free(&context_);
     }
-    cvode_problem(const cvode_problem&) = delete;
-    cvode_problem& operator=(const cvode_problem&) = delete;
+    cvode_solver(const cvode_solver&) = delete;
+    cvode_solver& operator=(const cvode_solver&) = delete;
 
-    /// Integrates to the next event; true where there was one.
-    bool advance(state& y, double& time) {
+    int advance(System& system, typename System::state& y, double& time) {
+        constexpr double many_scales = 1e4;
         double* values = N_VGetArrayPointer(y_);
         std::copy(y.begin(), y.end(), values);
-        check(CVodeReInit(memory_, 0.0, y_));
-        double reached = 0.0;
-        const int code = CVode(memory_, longest_phase, y_, &reached, CV_NORMAL);
-        std::copy(values, values + N, y.begin());
-        time += reached;
-        return code == CV_ROOT_RETURN;
-    }
-    /// Which event it was.
-    std::array<int, 2> events_found() {
-        std::array<int, 2> found{};
-        check(CVodeGetRootInfo(memory_, found.data()));
-        return found;
+        check(CVodeSetUserData(memory_, &system));
+        check(CVodeReInit(memory_, time, y_));
+        const double stop = system.stop_time();
+        const double longest = time + many_scales * System::time_scale;
+        if (stop < longest) check(CVodeSetStopTime(memory_, stop));
+        const int code = CVode(memory_, std::min(stop, longest), y_, &time, CV_NORMAL);
+        std::copy(values, values + n_states, y.begin());
+        if (code == CV_ROOT_RETURN) {
+            std::array<int, System::n_guards> found{};
+            check(CVodeGetRootInfo(memory_, found.data()));
+            return static_cast<int>(
+                std::ranges::find_if(found, [](int is_root) { return is_root != 0; }) -
+                found.begin());
+        }
+        const bool stopped = code == CV_TSTOP_RETURN || (code == CV_SUCCESS && time >= stop);
+        return stopped ? -1 : -2;
     }
 
 private:
+    static constexpr int n_states = static_cast<int>(std::tuple_size_v<typename System::state>);
+
     static void check(int code) {
         if (code < 0) throw std::runtime_error("CVODE refuses its settings");
+    }
+    static int rates(sunrealtype t, N_Vector y, N_Vector rate, void* system) {
+        static_cast<const System*>(system)->rates(t, N_VGetArrayPointer(y),
+                                                  N_VGetArrayPointer(rate));
+        return 0;
+    }
+    static int guards(sunrealtype t, N_Vector y, sunrealtype* values, void* system) {
+        static_cast<const System*>(system)->guards(t, N_VGetArrayPointer(y), values);
+        return 0;
     }
 
     SUNContext context_ = nullptr;
     N_Vector y_ = nullptr;
     void* memory_ = nullptr;
     SUNNonlinearSolver iteration_ = nullptr;
-};
-
-class cvode_solver {
-public:
-    static constexpr const char* name = "SUNDIALS CVODE Adams + rootfinding";
-
-    cvode_solver(physical_hopper hopper, double tolerance)
-        : hopper_(hopper),
-          flight_(hopper_, flight_rates, tolerance, gap, {-1}),
-          contact_(hopper_, contact_rates, tolerance, lift_or_turn, {1, -1}) {}
-
-    const physical_hopper& model() const { return hopper_; }
-
-    bool fly(flight_state& y, double& time) { return flight_.advance(y, time); }
-
-    return_end stand(contact_state& y, double& time) {
-        if (!contact_.advance(y, time)) return return_end::lost;
-        return contact_.events_found()[0] != 0 ? return_end::lifted : return_end::stuck;
-    }
-
-private:
-    static const physical_hopper& hopper_of(void* data) {
-        return *static_cast<const physical_hopper*>(data);
-    }
-    static int flight_rates(sunrealtype, N_Vector y, N_Vector rate, void* data) {
-        hopper_of(data).flight(N_VGetArrayPointer(y), N_VGetArrayPointer(rate));
-        return 0;
-    }
-    static int contact_rates(sunrealtype, N_Vector y, N_Vector rate, void* data) {
-        hopper_of(data).contact(N_VGetArrayPointer(y), N_VGetArrayPointer(rate));
-        return 0;
-    }
-    static int gap(sunrealtype, N_Vector y, sunrealtype* value, void*) {
-        value[0] = N_VGetArrayPointer(y)[2];
-        return 0;
-    }
-    static int lift_or_turn(sunrealtype, N_Vector y, sunrealtype* value, void*) {
-        value[0] = N_VGetArrayPointer(y)[0] - 1.0;
-        value[1] = N_VGetArrayPointer(y)[1];
-        return 0;
-    }
-
-    physical_hopper hopper_;
-    cvode_problem<4> flight_;
-    cvode_problem<2> contact_;
 };
 
 }  // namespace hopscotch::bench

@@ -1,192 +1,231 @@
-// How do Boost.odeint and SUNDIALS CVODE do the passive hopper's flights, and how much faster and
-// more right are the kernels? Same starts, same core, same run, in turn; work against precision.
+// How much faster and more right are the kernels than general ODE solvers doing the same returns?
+// Per model (bench/systems/): same starts, same core, same run, in turn; work against precision.
 //
-// Two jobs, each against the kernel that does the same: flights with contact in closed form by
-// energy (kernel without times), and flights with contact integrated to lift-off (kernel with
-// times). A result is wrong where the orbit gets stuck instead of lifting off (or the other way
-// round), or where the number of impacts is not the true one: an event missed, doubled or invented.
-#include "bench/hopper_returns.hpp"
+// Every solver runs at a ladder of tolerances; the errors are measured against 50 digits. The ratio
+// is taken at the loosest tolerance whose median error is at most the case's target (1e-10 for
+// models with exact flows, whose kernels are then still more right; 1e-9 for integrated ones, whose
+// kernels run at their own loosest sufficient tolerance). A result is wrong where the orbit ends
+// instead of returning, or the other way round.
 #include "bench/report.hpp"
+#include "bench/yardstick_case.hpp"
 #include "host/run/backends.hpp"
 
-#ifdef HOPSCOTCH_BENCH_ODEINT
-#include "bench/yardstick_odeint.hpp"
-#endif
-#ifdef HOPSCOTCH_BENCH_CVODE
-#include "bench/yardstick_cvode.hpp"
-#endif
-
-#include <memory>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
 namespace hopscotch::bench {
+
+std::vector<yardstick_case>& all_cases() {
+    static std::vector<yardstick_case> cases;
+    return cases;
+}
+
 namespace {
 
-constexpr std::size_t n_starts = 600;
-constexpr int n_kernel_calls =
-    20;  // per timing, so that the fast side is timed as long as a clock needs
+constexpr std::size_t n_starts = 240;
+constexpr std::size_t n_copies = 8;  // of the starts in one kernel call, so that lanes stay full
 constexpr int n_rounds = 5;
 
-/// What one solver made of all starts.
-struct work_precision {
-    std::string name;
-    double tolerance = 0.0;
-    double us_closed = 0.0;      // per flight, contact by energy
-    double us_integrated = 0.0;  // per flight, contact integrated
+/// What one solver at one tolerance made of all starts.
+struct accuracy {
+    std::vector<double> errors;  // where the outcome is right
     double n_wrong = 0.0;
-    std::vector<double> speed_errors;  // |f - truth| where the outcome is right
-    std::vector<double> conditioned;   // the same over the larger of |f| and |f'| alpha
-    std::vector<double> time_errors;   // of the whole return
+
+    double middle() const { return errors.empty() ? HUGE_VAL : median(errors); }
+    double wrong_share() const { return n_wrong / static_cast<double>(n_starts); }
 };
 
-struct answer {
-    bool returns;
-    double speed, time, impacts;
+struct true_state {
+    bool returns = false;
+    double columns[most_columns] = {};
 };
 
-void book(work_precision& row, const answer& got, double start, const true_return& truth) {
-    if (got.returns != truth.returns || got.impacts != truth.bounces + 1.0) {
-        row.n_wrong += 1.0;
-        return;
-    }
-    if (!truth.returns) return;
-    const return_error error = error_of(got.speed, start, truth);
-    row.speed_errors.push_back(error.absolute);
-    row.conditioned.push_back(error.relative);
-    row.time_errors.push_back(std::abs(got.time - truth.time));
-}
-
-void print(const work_precision& row, double mass) {
-    const double wrong = row.n_wrong / static_cast<double>(n_starts);
-    json_line("yardsticks")
-        .add("solver", row.name)
-        .add("mass_ratio", mass)
-        .add("tolerance", row.tolerance)
-        .add("starts", static_cast<double>(n_starts))
-        .add("us_per_flight_contact_closed", row.us_closed)
-        .add("us_per_flight_contact_timed", row.us_integrated)
-        .add("wrong_share", wrong)
-        .add("speed_error_median", median(row.speed_errors))
-        .add("speed_error_99", quantile(row.speed_errors, 0.99))
-        .add("speed_error_worst", quantile(row.speed_errors, 1.0))
-        .add("speed_error_conditioned_worst", quantile(row.conditioned, 1.0))
-        .add("time_error_median", median(row.time_errors))
-        .add("time_error_99", quantile(row.time_errors, 0.99))
-        .add("time_error_worst", quantile(row.time_errors, 1.0))
-        .print();
-    fmt::print(
-        "M {:<3} {:<44} {:>7} {:9.3f} / {:9.3f} us per flight (contact closed / timed), "
-        "wrong {:.2f} %, error of f median {:.1e} 99 % {:.1e}, of time {:.1e} {:.1e}\n",
-        mass, row.name, row.tolerance > 0.0 ? fmt::format("{:.0e}", row.tolerance) : "exact",
-        row.us_closed, row.us_integrated, 100.0 * wrong, median(row.speed_errors),
-        quantile(row.speed_errors, 0.99), median(row.time_errors), quantile(row.time_errors, 0.99));
-}
-
-void print_ratio(const work_precision& theirs, const work_precision& ours, double mass,
-                 bool is_shown) {
-    json_line("yardsticks_ratio")
-        .add("solver", theirs.name)
-        .add("kernel", ours.name)
-        .add("mass_ratio", mass)
-        .add("tolerance", theirs.tolerance)
-        .add("times_faster_contact_closed", theirs.us_closed / ours.us_closed)
-        .add("times_faster_contact_timed", theirs.us_integrated / ours.us_integrated)
-        .add("wrong_share_theirs", theirs.n_wrong / static_cast<double>(n_starts))
-        .add("wrong_share_ours", ours.n_wrong / static_cast<double>(n_starts))
-        .print();
-    if (!is_shown) return;
-    fmt::print("M {:<3} {} is {:.0f} times as fast as {} at {:.0e} (contact timed: {:.0f})\n", mass,
-               ours.name, theirs.us_closed / ours.us_closed, theirs.name, theirs.tolerance,
-               theirs.us_integrated / ours.us_integrated);
-}
-
-/// Everything that is measured at one mass ratio. Every piece of work runs once per round.
+/// One case with its kernels, starts and truth.
 class comparison {
 public:
-    explicit comparison(double mass) : work_(mass, uniform_starts(n_starts)) {
-        flights_ = work_.count_flights();
-        for (const double alpha : work_.starts) truth_.push_back(truth_of(alpha, mass));
-        for (const backend which : cpu_backends()) add_kernel(which);
-#ifdef HOPSCOTCH_BENCH_ODEINT
-        add_solvers<odeint_solver>();
-#endif
-#ifdef HOPSCOTCH_BENCH_CVODE
-        add_solvers<cvode_solver>();
-#endif
+    explicit comparison(const yardstick_case& what)
+        : what_(what),
+          work_(what.model, what.section, what.parameters, what.options, what.wants_time) {
+        work_.set_starts(uniform_rows(8 * n_starts, what.starts));
+        if (what.settled_after > 0) work_.settle(what.settled_after);
+        work_.keep_returning(n_starts);
+        n_ = work_.size();
+        truth_.resize(n_);
+        for (std::size_t i = 0; i < n_; ++i) truth_[i].returns = work_.truth(i, truth_[i].columns);
+        for (int c = 0; c < work_.n_columns(); ++c) {
+            std::vector<double> sizes;
+            for (const true_state& state : truth_) {
+                if (state.returns) sizes.push_back(std::abs(state.columns[c]));
+            }
+            scale_.push_back(median(sizes));
+        }
+        std::vector<double> tiled;
+        for (std::size_t copy = 0; copy < n_copies; ++copy) {
+            tiled.insert(tiled.end(), work_.start(0), work_.start(0) + n_ * scale_.size());
+        }
+        work_.set_starts(tiled);
     }
 
     void run() {
-        const auto seconds = alternate(pieces_, n_rounds);
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            const double calls = i < n_kernels_ ? n_kernel_calls : 1.0;
-            rows_[i].us_closed = 1e6 * median(seconds[2 * i]) / (calls * flights_);
-            rows_[i].us_integrated = 1e6 * median(seconds[2 * i + 1]) / (calls * flights_);
-            print(rows_[i], work_.mass_ratio);
-        }
-        for (std::size_t i = n_kernels_; i < rows_.size(); ++i) {
-            for (std::size_t k = 0; k < n_kernels_; ++k) {
-                print_ratio(rows_[i], rows_[k], work_.mass_ratio, k == 0);
-            }
+        const double tolerance =
+            what_.is_integrated && model_returns::takes_tolerance() ? kernel_tolerance() : 0.0;
+        const accuracy ours = accuracy_of_kernel(tolerance);
+        report("hopscotch", tolerance, ours, time_of_kernel(work_.backends().front(), tolerance));
+        for (const yardstick_case::solver& solver : what_.solvers) {
+            const std::optional<double> chosen = climb(solver);
+            if (chosen) compare(solver, *chosen, tolerance, ours);
+            if (what_.fixed_tolerance > 0.0)
+                compare(solver, what_.fixed_tolerance, tolerance, ours);
         }
     }
 
 private:
-    void add_kernel(backend which) {
-        work_precision row{.name = "hopscotch " + std::string(name_of(which))};
-        for (const bool is_timed : {false, true}) {
-            pieces_.emplace_back([this, which, is_timed] {
-                for (int i = 0; i < n_kernel_calls; ++i) work_.compute(which, is_timed);
+    /// Largest error of a state, each column over the larger of its true size and its typical one.
+    void book(accuracy& result, std::size_t i, bool returned, const double* columns) const {
+        if (returned != truth_[i].returns) {
+            result.n_wrong += 1.0;
+            return;
+        }
+        if (!returned) return;
+        double worst = 0.0;
+        for (std::size_t c = 0; c < scale_.size(); ++c) {
+            double difference = std::abs(columns[c] - truth_[i].columns[c]);
+            const double turn = work_.turn(static_cast<int>(c));
+            if (turn > 0.0) difference = std::min(difference, std::abs(turn - difference));
+            worst =
+                std::fmax(worst, difference / std::fmax(std::abs(truth_[i].columns[c]), scale_[c]));
+        }
+        result.errors.push_back(worst);
+    }
+
+    accuracy accuracy_of_kernel(double tolerance) {
+        work_.compute(work_.backends().front(), tolerance);
+        accuracy result;
+        for (std::size_t i = 0; i < n_; ++i) {
+            double columns[most_columns];
+            for (int c = 0; c < work_.n_columns(); ++c) columns[c] = work_.state(i, c);
+            book(result, i, work_.is_ok(i), columns);
+        }
+        return result;
+    }
+
+    /// The loosest tolerance at which the kernel meets the target.
+    double kernel_tolerance() {
+        for (double tolerance = 1e-4; tolerance > 1e-14; tolerance *= std::sqrt(0.1)) {
+            if (accuracy_of_kernel(tolerance).middle() <= what_.target_error) return tolerance;
+        }
+        return 0.0;
+    }
+
+    double time_of_kernel(backend which, double tolerance) {
+        const auto seconds = alternate({[&] { work_.compute(which, tolerance); }}, n_rounds);
+        return per_return(median(seconds[0]), n_copies);
+    }
+    double per_return(double seconds, std::size_t copies) const {
+        return 1e6 * seconds / static_cast<double>(copies * n_);
+    }
+
+    /// Runs the ladder of tolerances up to the loosest that meets the target.
+    std::optional<double> climb(const yardstick_case::solver& solver) {
+        for (int rung = 8; rung <= 26; ++rung) {
+            const double tolerance = std::pow(10.0, -0.5 * rung);
+            const yardstick one = solver.make(work_.parameters().data(), tolerance);
+            accuracy result;
+            const double seconds = seconds_of([&] {
+                for (std::size_t i = 0; i < n_; ++i) {
+                    const yardstick_return got = one(work_.start(i));
+                    book(result, i, got.returned, got.columns.data());
+                }
             });
+            report(solver.name, tolerance, result, per_return(seconds, 1));
+            if (result.middle() <= what_.target_error) return tolerance;
         }
-        work_.count_flights();
-        work_.compute(which, true);
-        for (std::size_t i = 0; i < n_starts; ++i) {
-            const bool returns = work_.ends[i] == static_cast<std::uint8_t>(outcome::ok);
-            book(row, {returns, work_.speeds[i], work_.times[i], work_.bounces[i] + 1.0},
-                 work_.starts[i], truth_[i]);
-        }
-        rows_.push_back(row);
-        n_kernels_ = rows_.size();
+        return std::nullopt;
     }
 
-    template <class Solver>
-    void add_solvers() {
-        for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
-            auto solver = std::make_shared<Solver>(physical_hopper{work_.mass_ratio}, tolerance);
-            work_precision row{.name = Solver::name, .tolerance = tolerance};
-            for (const contact_rule rule : {contact_rule::by_energy, contact_rule::integrated}) {
-                pieces_.emplace_back([this, solver, rule] {
-                    for (const double alpha : work_.starts) {
-                        sum_ += one_return(*solver, alpha, rule).speed;
-                    }
-                });
-            }
-            for (std::size_t i = 0; i < n_starts; ++i) {
-                const physical_return got =
-                    one_return(*solver, work_.starts[i], contact_rule::integrated);
-                book(row,
-                     {got.end == return_end::lifted, got.speed, got.time,
-                      got.end == return_end::lost ? -1.0 : static_cast<double>(got.impacts)},
-                     work_.starts[i], truth_[i]);
-            }
-            rows_.push_back(row);
+    /// The solver and every kernel in turn.
+    void compare(const yardstick_case::solver& solver, double theirs, double ours,
+                 const accuracy& our_accuracy) {
+        const std::vector<backend> kernels = work_.backends();
+        const yardstick one = solver.make(work_.parameters().data(), theirs);
+        accuracy their_accuracy;
+        for (std::size_t i = 0; i < n_; ++i) {
+            const yardstick_return got = one(work_.start(i));
+            book(their_accuracy, i, got.returned, got.columns.data());
+        }
+        std::vector<std::function<void()>> pieces;
+        for (const backend which : kernels)
+            pieces.emplace_back([this, which, ours] { work_.compute(which, ours); });
+        pieces.emplace_back([&] {
+            for (std::size_t i = 0; i < n_; ++i) sum_ += one(work_.start(i)).columns[0];
+        });
+        const auto seconds = alternate(pieces, n_rounds);
+        const double slow = per_return(median(seconds.back()), 1);
+        for (std::size_t k = 0; k < kernels.size(); ++k) {
+            const double fast = per_return(median(seconds[k]), n_copies);
+            json_line("yardsticks_ratio")
+                .add("case", what_.name)
+                .add("solver", solver.name)
+                .add("kernel", name_of(kernels[k]))
+                .add("target_error", what_.target_error)
+                .add("tolerance", theirs)
+                .add("kernel_tolerance", ours)
+                .add("error_median", their_accuracy.middle())
+                .add("kernel_error_median", our_accuracy.middle())
+                .add("us_per_return", slow)
+                .add("kernel_us_per_return", fast)
+                .add("times_faster", slow / fast)
+                .print();
+            if (k > 0) continue;
+            fmt::print(
+                "{:<26} {} {:.4f} us per return (error {:.0e}) is {:.0f} times as fast as {} at "
+                "{:.0e}: {:.2f} us (error {:.0e})\n",
+                what_.name, name_of(kernels[k]), fast, our_accuracy.middle(), slow / fast,
+                solver.name, theirs, slow, their_accuracy.middle());
+            std::fflush(stdout);
         }
     }
 
-    hopper_returns work_;
-    double flights_ = 0.0;
-    double sum_ = 0.0;  // keeps the solvers' work alive
-    std::vector<true_return> truth_;
-    std::vector<std::function<void()>> pieces_;  // two per row: contact closed, contact timed
-    std::vector<work_precision> rows_;
-    std::size_t n_kernels_ = 0;
+    void report(std::string_view solver, double tolerance, const accuracy& result,
+                double us_per_return) const {
+        json_line("yardsticks")
+            .add("case", what_.name)
+            .add("solver", solver)
+            .add("tolerance", tolerance)
+            .add("starts", static_cast<double>(n_))
+            .add("us_per_return", us_per_return)
+            .add("error_median", result.middle())
+            .add("error_99", quantile(result.errors, 0.99))
+            .add("error_worst", quantile(result.errors, 1.0))
+            .add("wrong_share", result.wrong_share())
+            .print();
+    }
+
+    const yardstick_case& what_;
+    model_returns work_;
+    std::size_t n_ = 0;
+    std::vector<true_state> truth_;
+    std::vector<double> scale_;  // typical size of each column
+    double sum_ = 0.0;           // keeps the solvers' work alive
 };
 
 }  // namespace
 }  // namespace hopscotch::bench
 
-int main() {
-    hopscotch::bench::stay_on_this_core();
-    for (const double mass : {1.0, 20.0}) hopscotch::bench::comparison(mass).run();
+/// Names of cases, or beginnings of them, limit the run to these.
+int main(int argc, char** argv) {
+    using namespace hopscotch::bench;
+    stay_on_this_core();
+    std::vector<yardstick_case>& cases = all_cases();
+    std::ranges::sort(cases, {}, &yardstick_case::name);
+    for (const yardstick_case& one : cases) {
+        const auto is_named = [&](const char* word) { return one.name.starts_with(word); };
+        if (argc > 1 && std::none_of(argv + 1, argv + argc, is_named)) continue;
+        comparison(one).run();
+    }
 }
