@@ -184,19 +184,35 @@ private:
         const Real two(2.0);
         for (int n = 0; n < taylor::order<Real>; ++n) {
             const int m = n + 1;
-            Real pressure = a.root.c[0] * a.root.c[n];
-            Real outflow = a.x.c[0] * a.root.c[n];
-            Real drift = a.root.c[0] * a.v.c[n];
-            for (int i = 1; i <= n; ++i) {
-                pressure = fma(a.root.c[i], a.root.c[n - i], pressure);
-                outflow = fma(a.x.c[i], a.root.c[n - i], outflow);
-                drift = fma(a.root.c[i], a.v.c[n - i], drift);
+            // products of pairs i, n - i: every coefficient is loaded once for three products
+            Real pressure(0.0);  // half of the sum of unequal pairs
+            Real outflow(0.0);
+            Real drift(0.0);
+            Real push(0.0);
+            for (int i = 1, j = n - 1; i < j; ++i, --j) {
+                pressure = fma(a.root.c[i], a.root.c[j], pressure);
+                outflow = fma(a.x.c[j], a.root.c[i], fma(a.x.c[i], a.root.c[j], outflow));
+                drift = fma(a.root.c[j], a.v.c[i], fma(a.root.c[i], a.v.c[j], drift));
+                push = fma(a.root.c[j], force.c[i], fma(a.root.c[i], force.c[j], push));
+            }
+            if (n > 0) {
+                pressure = fma(a.root.c[0], a.root.c[n], pressure);
+                pressure = pressure + pressure;
+                outflow = fma(a.x.c[n], a.root.c[0], fma(a.x.c[0], a.root.c[n], outflow));
+                drift = fma(a.root.c[n], a.v.c[0], fma(a.root.c[0], a.v.c[n], drift));
+                push = fma(a.root.c[n], force.c[0], push);
+            }
+            if (n % 2 == 0) {
+                const int i = n / 2;
+                pressure = fma(a.root.c[i], a.root.c[i], pressure);
+                outflow = fma(a.x.c[i], a.root.c[i], outflow);
+                drift = fma(a.root.c[i], a.v.c[i], drift);
+                if (n > 0) push = fma(a.root.c[i], force.c[i], push);
             }
             Real net = pressure - a.x.c[n];
             if (n == 0) net = net - lane.offset;
             force.c[n] = fma(-lane.damping, a.v.c[n], net);
-            Real push = a.root.c[0] * force.c[n];
-            for (int i = 1; i <= n; ++i) push = fma(a.root.c[i], force.c[n - i], push);
+            push = fma(a.root.c[0], force.c[n], push);
             a.x.c[m] = over(two * drift, m);
             a.v.c[m] = over(two * push, m);
             a.root.c[m] = over(lane.gain * (n == 0 ? lane.flow - outflow : -outflow), m);
