@@ -29,6 +29,8 @@ std::string text_of(const end_of_branch& end) {
             return "ends: " + end.detail;
         case branch_end::border:
             return "ends at a border: " + end.detail;
+        case branch_end::root:
+            return "ends in a square root at " + end.detail;
         case branch_end::closed:
             return "closed";
         case branch_end::birth:

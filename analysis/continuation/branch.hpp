@@ -41,11 +41,21 @@ struct special_point {
 };
 
 /// Why a branch was not followed further.
-enum class branch_end { range, failure, border, closed, birth, lost, budget, start };
+enum class branch_end {
+    range,    // of the variable
+    failure,  // orbits beyond have another outcome
+    border,   // orbits beyond have other events, and none of them is periodic nearby
+    root,     // the map has a square root there, the multiplier no bound
+    closed,
+    birth,  // from an orbit of half the period
+    lost,
+    budget,
+    start  // begins at a special point of its parent
+};
 
 struct end_of_branch {
     branch_end why = branch_end::lost;
-    std::string detail;  // the outcome or the events behind the end
+    std::string detail;  // the outcome or the events behind the end, the place of a root
 };
 
 std::string text_of(const end_of_branch& end);

@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace hopscotch {
 namespace {
@@ -48,6 +51,7 @@ private:
     double step_;
     branch path_;
     end_of_branch stop_;
+    std::vector<std::pair<double, double>> steep_;  // variable and largest multiplier of every step
 
     /// Whether the last step led through the start, in the start's direction.
     bool has_passed(const curve_point& before, const curve_point& start) const {
@@ -93,6 +97,7 @@ private:
         constexpr double dense = 1e-4;  // of the longest step: closer orbits are not kept
         here_ = next;
         orbit_ = orbit;
+        steep_.emplace_back(orbit_.variable, orbit_.multipliers.front().real());
         tests_ = tests_at(equation_, here_);
         half_ = half_gap(here_);
         const double apart = (here_.unknowns - path_.orbits.back().unknowns).norm();
@@ -143,6 +148,7 @@ private:
         const wall_crossing crossing = cross_wall(equation_, here_, orbit_.word);
         if (!crossing.beyond) {
             stop_ = crossing.end;
+            if (stop_.why == branch_end::lost) stop_ = root_end().value_or(stop_);
             return false;
         }
         special_point special{.kind = special_kind::border,
@@ -159,6 +165,22 @@ private:
         path_.orbits.push_back(orbit_);
         step_ = std::max(crossing.length, 1e-3 * limits_.step);
         return true;
+    }
+
+    /// An end that is touched with a multiplier growing without bound, as at the edge of a gap: the
+    /// map has a square root there. The inverse multiplier falls to zero linearly in the variable.
+    std::optional<end_of_branch> root_end() const {
+        constexpr double large = 1e3;
+        const double last = std::abs(orbit_.multipliers.front());
+        if (last < large) return std::nullopt;
+        for (auto orbit = steep_.rbegin(); orbit != steep_.rend(); ++orbit) {
+            const double before = std::abs(orbit->second);
+            if (before > 0.5 * last) continue;
+            const double slope = (orbit_.variable - orbit->first) / (1.0 / last - 1.0 / before);
+            return end_of_branch{branch_end::root,
+                                 fmt::format("{:.17g}", orbit_.variable - slope / last)};
+        }
+        return std::nullopt;
     }
 
     void note_special_points(const curve_point& next, double length) {
@@ -193,7 +215,9 @@ private:
     /// Whether the two halves of the orbit change places within the step.
     bool shrinks_to_half(const curve_point& next) const {
         const auto after = half_gap(next);
-        return half_ && after && half_->dot(*after) < 0.0;
+        constexpr double rounding = 1e-9;  // both halves are one orbit throughout
+        if (!half_ || !after || half_->norm() < rounding || after->norm() < rounding) return false;
+        return half_->dot(*after) < 0.0;
     }
 };
 

@@ -63,38 +63,42 @@ std::optional<curve_point> locate(
     const std::function<std::optional<double>(const curve_point&)>& test) {
     constexpr int most_evaluations = 80;
     constexpr double closeness = 4e-16;  // of the step's length
-    double low = 0.0;
-    double high = length;
-    auto at_low = test(from);
-    auto reached = step_along(equation, from.unknowns, from.tangent, high).point;
-    if (!reached || !at_low) return std::nullopt;
-    auto at_high = test(*reached);
-    if (!at_high || *at_low * *at_high > 0.0) return std::nullopt;
+    constexpr double close = 1e-3;       // where a chord is taken if Newton's method is singular
+    struct end {
+        double length;
+        curve_point point;
+        double value;  // halved where the other end has moved twice
+    };
+    const auto at = [&](double where) -> std::optional<end> {
+        const auto point = step_along(equation, from.unknowns, from.tangent, where).point;
+        const auto value = point ? test(*point) : std::nullopt;
+        return value ? std::optional(end{where, *point, *value}) : std::nullopt;
+    };
+    const auto value_here = test(from);
+    const auto reached = at(length);
+    if (!value_here || !reached || *value_here * reached->value > 0.0) return std::nullopt;
+    end low{0.0, from, *value_here};
+    end high = *reached;
     int last_side = 0;
-    double value_low = *at_low;
-    double value_high = *at_high;
-    for (int i = 0; i < most_evaluations && high - low > closeness * length; ++i) {
-        double middle = low + (high - low) * value_low / (value_low - value_high);
-        if (!(middle > low && middle < high) || i % 8 == 7) middle = 0.5 * (low + high);
-        const auto point = step_along(equation, from.unknowns, from.tangent, middle).point;
-        if (!point) return std::nullopt;
-        const auto value = test(*point);
-        if (!value) return std::nullopt;
-        reached = point;
-        if (*value == 0.0) break;
-        const int side = (*value < 0.0) == (value_high < 0.0) ? 1 : -1;
-        if (side > 0) {
-            high = middle;
-            value_high = *value;
-            if (last_side > 0) value_low *= 0.5;
-        } else {
-            low = middle;
-            value_low = *value;
-            if (last_side < 0) value_high *= 0.5;
+    for (int i = 0; i < most_evaluations && high.length - low.length > closeness * length; ++i) {
+        const double apart = high.length - low.length;
+        double share = low.value / (low.value - high.value);
+        if (!(share > 0.0 && share < 1.0) || i % 8 == 7) share = 0.5;
+        auto middle = at(low.length + share * apart);
+        if (!middle) middle = at(low.length + (share < 0.5 ? 0.6 : 0.4) * apart);
+        if (!middle && apart < close * length) {
+            const Eigen::VectorXd chord = high.point.unknowns - low.point.unknowns;
+            return curve_point{low.point.unknowns + share * chord, low.point.tangent};
         }
+        if (!middle) return std::nullopt;
+        if (middle->value == 0.0) return middle->point;
+        const bool is_high = (middle->value < 0.0) == (high.value < 0.0);
+        const int side = is_high ? 1 : -1;
+        if (side == last_side) (is_high ? low : high).value *= 0.5;
+        (is_high ? high : low) = *middle;
         last_side = side;
     }
-    return reached;
+    return std::abs(low.value) < std::abs(high.value) ? low.point : high.point;
 }
 
 std::optional<special_kind> kind_of_zero(int test,

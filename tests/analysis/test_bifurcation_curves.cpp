@@ -42,6 +42,29 @@ TEST(bifurcation_curve, follows_the_paddle_jugglers_flip_over_the_restitution) {
     EXPECT_TRUE(has_flip);
 }
 
+// det = 1 on k11 = T k10 and a flip at k11 = 2/G (models/mirror_juggler.md, section 4)
+TEST(bifurcation_curve, follows_the_planar_jugglers_neimark_sacker_line) {
+    const map_point map =
+        map_of("mirror_planar", "apex", {{"position_gain", 0.05}}, {{"law", "solvable"}});
+    const double fall = std::sqrt(2.0 * 9.81 * 0.5);
+    const double flight = fall / 9.81;
+    branch_study study = study_over(map, "velocity_gain", 0.005, 0.2,
+                                    {{0.4, 0.6, 2}, {0.4, 0.6, 2}, {-0.1, 0.1, 2}});
+    study.doublings = 0;
+    const branch_variable position_gain{false, 6, 0.02, 0.15};
+    const auto curves =
+        curves_through(study.family, position_gain, find_branches(study), study.limits);
+    ASSERT_EQ(curves.size(), 2U);
+    for (const bifurcation_curve& curve : curves) {
+        EXPECT_GT(curve.variable.size(), 50U);
+        for (std::size_t i = 0; i < curve.variable.size(); ++i) {
+            const double expected =
+                curve.kind == special_kind::flip ? 0.5 / fall : flight * curve.second[i];
+            EXPECT_NEAR(curve.variable[i], expected, 1e-10);
+        }
+    }
+}
+
 // kt_SN(gt) of models/slip.md, section 11 (Fig. 14), beta = 1.25, gravity in stance
 TEST(bifurcation_curve, follows_the_runners_fold_over_gravity_and_stiffness) {
     const map_point map = map_of("slip", "touchdown", {{"leg_length", 1.0}, {"gravity", 0.25}},

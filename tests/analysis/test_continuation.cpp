@@ -1,4 +1,5 @@
 // Branches of periodic orbits against published bifurcation values and closed forms.
+#include "analysis/continuation/cascade.hpp"
 #include "analysis/truth/decimal.hpp"
 #include "tests/analysis/branch_runs.hpp"
 
@@ -195,6 +196,117 @@ TEST(continuation, finds_the_paddle_jugglers_stability_limits) {
         EXPECT_NEAR(folds[0].orbit.variable, w, 1e-10);
         EXPECT_NEAR(flips[0].orbit.variable, flip, 1e-10);
     }
+}
+
+// With restitution 0 and D < 1 the ball is caught: bouncing lives from Gamma = sqrt(pi^2 + 1),
+// where catch and release end, to the flip at sqrt(pi^2 + 4); period 2 up to 3.85685 (section 7)
+TEST(continuation, finds_where_the_shannon_juggler_bounces) {
+    const double pi = std::numbers::pi;
+    const map_point map = map_of("paddle_juggler", "impact", {{"restitution", 0.0}});
+    const auto branches =
+        find_branches(study_over(map, "amplitude", 3.1, 4.0, {{0.0, 6.28, 8}, {0.0, 4.0, 3}}));
+    const auto borders = special_points(branches, special_kind::border, 1);
+    const auto flips = special_points(branches, special_kind::flip, 1);
+    ASSERT_EQ(borders.size(), 1U);
+    ASSERT_EQ(flips.size(), 1U);
+    EXPECT_NEAR(borders[0].orbit.variable, std::sqrt(pi * pi + 1.0), 1e-10);
+    EXPECT_NEAR(flips[0].orbit.variable, std::sqrt(pi * pi + 4.0), 1e-10);
+    const auto catches = special_points(branches, special_kind::border, 2);
+    ASSERT_EQ(catches.size(), 1U);
+    EXPECT_NEAR(catches[0].orbit.variable, 3.85685, 5e-6);
+}
+
+// Planar mirror law (15): horizontal block with trace 2 - T G k10 - G k11, determinant
+// 1 + T G k10 - G k11, G = 2 V / b_x*, T = V / gamma, V = sqrt(2 gamma b_z*)
+// (models/mirror_juggler.md, section 4)
+TEST(continuation, finds_the_planar_jugglers_limits_of_the_velocity_gain) {
+    const map_point map =
+        map_of("mirror_planar", "apex", {{"position_gain", 0.05}}, {{"law", "solvable"}});
+    const double fall = std::sqrt(2.0 * 9.81 * 0.5);
+    const double flight = fall / 9.81;
+    branch_study study = study_over(map, "velocity_gain", 0.005, 0.3,
+                                    {{0.4, 0.6, 2}, {0.4, 0.6, 2}, {-0.1, 0.1, 2}});
+    study.doublings = 0;
+    const auto branches = find_branches(study);
+    const auto pairs = special_points(branches, special_kind::neimark_sacker, 1);
+    const auto flips = special_points(branches, special_kind::flip, 1);
+    ASSERT_EQ(pairs.size(), 1U);
+    ASSERT_EQ(flips.size(), 1U);
+    EXPECT_NEAR(pairs[0].orbit.variable, flight * 0.05, 1e-10);
+    EXPECT_NEAR(flips[0].orbit.variable, 0.5 / fall, 1e-10);  // 2 / G
+}
+
+// y' = y (a - y)^2 with a = 1 + (1 + alpha) kappa1 gamma b*: flips at a = 2 and, of the 2-cycle, at
+// sqrt 5; cascade to 2.3022834627007 (sections 3 and 6)
+TEST(continuation, finds_the_line_jugglers_cascade) {
+    const map_point map = map_of("mirror_line", "apex");
+    const double per_gain = 1.75 * 9.81 * 0.5;
+    branch_study study =
+        study_over(map, "energy_gain", 0.5 / per_gain, 1.31 / per_gain, {{0.3, 0.7, 6}});
+    study.doublings = 6;
+    const auto branches = find_branches(study);
+    const auto first = special_points(branches, special_kind::flip, 1);
+    const auto second = special_points(branches, special_kind::flip, 2);
+    ASSERT_EQ(first.size(), 1U);
+    ASSERT_FALSE(second.empty());
+    EXPECT_NEAR(1.0 + per_gain * first[0].orbit.variable, 2.0, 1e-11);
+    EXPECT_NEAR(1.0 + per_gain * second[0].orbit.variable, std::sqrt(5.0), 1e-11);
+    const auto cascades = cascades_of(branches);
+    ASSERT_FALSE(cascades.empty());
+    const double limit = 1.0 + per_gain * cascades[0].limit;
+    const double error = per_gain * cascades[0].error;
+    EXPECT_LT(error, 1e-6);
+    EXPECT_NEAR(limit, 2.3022834627007, error + 1e-12);
+}
+
+// For beta > pi/6 the upper gait ends at kt = 1, v = eta0 sqrt(k/m) (models/slip.md, section 4)
+TEST(continuation, ends_the_runners_upper_gait_where_the_leg_collapses) {
+    const map_point map =
+        map_of("slip", "touchdown", {{"stiffness", 50.0}, {"touchdown_angle", 0.8}},
+               {{"stance_gravity", "off"}});
+    const auto branches =
+        find_branches(study_over(map, "speed", 7.0, 11.0, {{8.0, 8.0, 1}, {0.0, 0.75, 12}}));
+    double highest = 0.0;
+    for (const branch& branch : branches) {
+        if (branch.period == 1 && branch.first.why == branch_end::failure)
+            highest = branch.orbits.front().variable;
+        if (branch.period == 1 && branch.last.why == branch_end::failure)
+            highest = branch.orbits.back().variable;
+    }
+    EXPECT_NEAR(highest, 1.5 * std::sqrt(50.0), 1e-9);  // the slope is infinite there
+}
+
+TEST(continuation, finds_longer_periods_from_starts) {
+    const map_point map = map_of("raibert_pneumatic_simple", "energy");
+    branch_study study = study_over(map, "gain", 13.0, 14.5, {{0.0, 6.0, 16}});
+    study.most_period = 4;
+    study.doublings = 0;
+    const auto branches = find_branches(study);
+    const auto flips = special_points(branches, special_kind::flip, 4);
+    ASSERT_EQ(flips.size(), 1U);
+    EXPECT_NEAR(flips[0].orbit.variable, 14.24424927, 5e-9);
+    int n_of_period[5] = {};
+    for (const branch& branch : branches) ++n_of_period[branch.period];
+    EXPECT_EQ(n_of_period[1], 1);
+    EXPECT_EQ(n_of_period[2], 1);
+    EXPECT_EQ(n_of_period[3], 0);  // the window of period 3 lies beyond the cascade
+    EXPECT_EQ(n_of_period[4], 1);
+}
+
+// As fixed points of P^2, the fixed point and the 2-cycle of alpha E exp(-E) cross at e^2
+TEST(continuation, locates_a_branch_point) {
+    const map_point map = map_of("raibert_pneumatic_simple", "energy");
+    const branch_study study = study_over(map, "gain", 6.0, 9.0, {{0.0, 6.0, 8}});
+    const branch_equation twice(study.family, 2);
+    const double fixed[] = {std::log(6.5)};
+    const Eigen::VectorXd start = twice.unknowns_of(fixed, 6.5);
+    const Eigen::VectorXd upward = Eigen::VectorXd::Unit(2, 1);
+    const branch trivial =
+        follow(twice, {start, tangent_of(twice.at(start).jacobian, upward)}, study.limits);
+    ASSERT_EQ(trivial.special.size(), 1U);
+    EXPECT_EQ(trivial.special[0].kind, special_kind::branch_point);
+    EXPECT_NEAR(trivial.special[0].orbit.variable, std::exp(2.0),
+                1e-7);  // Newton is singular there
 }
 
 // The valve's oscillation dies in a Hopf bifurcation of the equilibrium x (x + d) = ..., where the
