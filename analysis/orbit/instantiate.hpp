@@ -2,6 +2,7 @@
 // numbers over each. Included only by generated units, one per model.
 #pragma once
 
+#include "analysis/orbit/enclose.hpp"
 #include "analysis/orbit/exponent_orbit.hpp"
 #include "analysis/orbit/orbit_functions.hpp"
 #include "analysis/truth/decimal.hpp"
@@ -288,6 +289,7 @@ template <class Model>
 inline constexpr orbit_functions orbit_table{
     &run_orbit<Model, double>, &run_orbit<Model, double_double<double>>,
     &run_orbit<Model, real50>, &trace_orbit<Model>,
-    &run_jet<Model>,           &run_exponents<Model>};
+    &run_jet<Model>,           &run_exponents<Model>,
+    &enclose_returns<Model>};
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

@@ -3,6 +3,7 @@
 // so that no precision is lost on the way.
 #pragma once
 
+#include "analysis/orbit/enclosed_orbit.hpp"
 #include "kernels/contract/info.hpp"
 #include "kernels/contract/motion.hpp"
 #include "kernels/ensemble/request.hpp"
@@ -105,6 +106,7 @@ struct orbit_functions {
     orbit_answer (*trace)(const orbit_row&, orbit_observer&);  // in double
     return_jet (*jet)(const jet_query&);
     exponent_answer (*exponents)(const orbit_row&, const exponent_request&);  // in double-double
+    enclosed_returns (*enclose)(const enclosed_query&);  // over whole sets of starts
 };
 
 }  // namespace hopscotch

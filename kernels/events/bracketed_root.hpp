@@ -77,35 +77,41 @@ inline constexpr int most_root_steps = 400;
 template <class Real, int Order = 2, class Function>
 HOPSCOTCH_DEVICE inline Real bracketed_root(Function&& rising, bracket<Real> within, Real guess,
                                             mask_of<Real> wanted) {
-    constexpr double settled_share = settled_step<Real, Order>();
-    const Real close_enough(settled_share);
-    const Real collapsed(lane_traits<Real>::rounding * 2.0);
-    const Real half(0.5);
-    Real low = within.low;
-    Real high = within.high;
-    const mask_of<Real> inside = (guess >= low) & (guess <= high);
-    Real x = select(inside, guess, (low + high) * half);
-    Real last_step = high - low;
-    mask_of<Real> active = wanted;
-    for (int i = 0; i < most_root_steps && any(active); ++i) {
-        const value_and_step<Real> f = iteration(rising(x));
-        const mask_of<Real> left = f.value < Real(0.0);
-        low = select(active & left, x, low);
-        high = select(active & !left, x, high);
-        const Real newton = x - f.step;
-        const mask_of<Real> good =
-            (newton >= low) & (newton <= high) & (abs(f.step) <= last_step * Real(0.75));
-        const Real middle = (low + high) * half;
-        const Real next = select(good, newton, middle);
-        const Real scale = abs(next);
-        const mask_of<Real> settled = (good & (abs(f.step) <= close_enough * scale)) |
-                                      ((high - low) <= collapsed * scale) | (f.value == Real(0.0));
-        const mask_of<Real> lost = !(f.value == f.value);
-        last_step = select(active, abs(next - x), last_step);
-        x = select(active & !lost & !(f.value == Real(0.0)), next, x);
-        active = active & !settled & !lost;
+    // an arithmetic of whole sets has no single point to iterate on and brings its own way
+    if constexpr (requires { root_by_arithmetic(rising, within, guess, wanted); }) {
+        return root_by_arithmetic(rising, within, guess, wanted);
+    } else {
+        constexpr double settled_share = settled_step<Real, Order>();
+        const Real close_enough(settled_share);
+        const Real collapsed(lane_traits<Real>::rounding * 2.0);
+        const Real half(0.5);
+        Real low = within.low;
+        Real high = within.high;
+        const mask_of<Real> inside = (guess >= low) & (guess <= high);
+        Real x = select(inside, guess, (low + high) * half);
+        Real last_step = high - low;
+        mask_of<Real> active = wanted;
+        for (int i = 0; i < most_root_steps && any(active); ++i) {
+            const value_and_step<Real> f = iteration(rising(x));
+            const mask_of<Real> left = f.value < Real(0.0);
+            low = select(active & left, x, low);
+            high = select(active & !left, x, high);
+            const Real newton = x - f.step;
+            const mask_of<Real> good =
+                (newton >= low) & (newton <= high) & (abs(f.step) <= last_step * Real(0.75));
+            const Real middle = (low + high) * half;
+            const Real next = select(good, newton, middle);
+            const Real scale = abs(next);
+            const mask_of<Real> settled = (good & (abs(f.step) <= close_enough * scale)) |
+                                          ((high - low) <= collapsed * scale) |
+                                          (f.value == Real(0.0));
+            const mask_of<Real> lost = !(f.value == f.value);
+            last_step = select(active, abs(next - x), last_step);
+            x = select(active & !lost & !(f.value == Real(0.0)), next, x);
+            active = active & !settled & !lost;
+        }
+        return x;
     }
-    return x;
 }
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

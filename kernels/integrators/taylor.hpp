@@ -106,6 +106,8 @@ public:
     /// a coefficient is not finite.
     HOPSCOTCH_DEVICE primal_of<Real> length(const primal_of<Real>& tolerance,
                                             const primal_of<Real>& longest) const {
+        // proofs do not hold the remainder
+        if constexpr (requires { note_truncation(tolerance); }) note_truncation(tolerance);
         const plain from_last = root(tolerance / last_, order<Real>);
         const plain from_before = root(tolerance / before_last_, order<Real> - 1);
         const plain shorter = smaller(from_before, from_last);

@@ -90,6 +90,12 @@ struct dual {
         return with_slopes(select(condition, yes.value, no.value),
                            [&](int i) { return select(condition, yes.slope[i], no.slope[i]); });
     }
+    friend HOPSCOTCH_DEVICE dual select_form(const mask_of<T>& condition, const dual& yes,
+                                             const dual& no) {
+        return with_slopes(select_form(condition, yes.value, no.value), [&](int i) {
+            return select_form(condition, yes.slope[i], no.slope[i]);
+        });
+    }
     friend HOPSCOTCH_DEVICE dual negate_where(const mask_of<T>& condition, const dual& x) {
         return select(condition, -x, x);
     }
@@ -99,9 +105,7 @@ struct dual {
     /// f(x) by the chain rule, from f's value and derivative at the primal. A constant stays one
     /// even where the derivative is infinite.
     friend HOPSCOTCH_DEVICE dual chain(const dual& x, const T& value, const T& derivative) {
-        return with_slopes(value, [&](int i) {
-            return select(x.slope[i] == T(0.0), T(0.0), derivative * x.slope[i]);
-        });
+        return with_slopes(value, [&](int i) { return chained_slope(derivative, x.slope[i]); });
     }
     friend HOPSCOTCH_DEVICE dual sqrt(const dual& x) {
         const T root = sqrt(x.value);

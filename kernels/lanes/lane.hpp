@@ -6,6 +6,7 @@
 //   fma(a, b, c)   a * b + c, rounded once          sqrt abs floor nearest(x) (ties to even)
 //   select(mask, a, b)  any(mask)  all(mask)        copysign(magnitude, sign)
 //   negate_where(mask, x)   cheaper than select(mask, -x, x)
+//   select_form(mask, a, b) select between two forms of one function
 //   primal(x)      the value without derivatives (identity for all but dual numbers)
 // and the elementary functions of kernels/elementary/. Masks combine with & | and !.
 #pragma once

@@ -79,4 +79,19 @@ HOPSCOTCH_DEVICE inline void fill_lanes(std::uint64_t* to, bool where, const std
 /// Number of set lanes.
 HOPSCOTCH_DEVICE inline int count(bool mask) { return mask ? 1 : 0; }
 
+/// `select` between two forms of one function, the mask saying which keeps more digits. The same
+/// bits; arithmetics that follow a whole set of starts (analysis/truth/enclosure.hpp) may cross
+/// from one form to the other inside it.
+template <class Mask, class Real>
+HOPSCOTCH_DEVICE inline Real select_form(const Mask& condition, const Real& yes, const Real& no) {
+    return select(condition, yes, no);
+}
+
+/// derivative * slope of the chain rule; a slope of zero stays zero even where the derivative is
+/// infinite.
+template <class Real>
+HOPSCOTCH_DEVICE inline Real chained_slope(const Real& derivative, const Real& slope) {
+    return select(slope == Real(0.0), Real(0.0), derivative * slope);
+}
+
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

@@ -28,7 +28,8 @@ HOPSCOTCH_DEVICE inline Real shoulder_time(const horizontal<Real>& motion, const
     const Real excess = (motion.distance - radius) * (motion.distance + radius);
     const Real room = fma(motion.speed_square * radius, radius, -(motion.spin * motion.spin));
     const mask_of<Real> passes = (motion.advance < zero) & (room >= zero);
-    const Real time = excess / (sqrt(larger(room, zero)) - motion.advance);
+    const Real closing = larger(sqrt(larger(room, zero)) - motion.advance, zero);
+    const Real time = excess / closing;
     return select(passes, time, infinity<Real>());
 }
 
@@ -79,7 +80,7 @@ HOPSCOTCH_DEVICE inline ray_contact<Real> fall_on_ray(const Real& gap, const Rea
     const Real closing = sqrt(fma(drift, drift, Real(2.0) * gravity * gap));
     const mask_of<Real> meets = drift >= Real(0.0);
     const Real time =
-        select(meets, Real(2.0) * gap / (closing + drift), (closing - drift) / gravity);
+        select_form(meets, Real(2.0) * gap / (closing + drift), (closing - drift) / gravity);
     return {time, closing};
 }
 

@@ -133,9 +133,8 @@ HOPSCOTCH_DEVICE inline planar_contact<Real> original_contact(const planar_lane<
     plain polynomial[5];
     value.slope_polynomial(polynomial);
     const plain end = select(wanted, primal(flight_end), plain(1.0));
-    const auto points = sign_changes<4>(polynomial, end, wanted);
     const auto falling = [&](const plain& t) { return value.at(t); };
-    const first_fall<plain> fall = first_fall_between(falling, points, end, wanted);
+    const first_fall<plain> fall = first_fall_of<4>(falling, polynomial, end, wanted, wanted);
     const Real time =
         implicit_root(fall.time, law.at(Real(fall.time)).value, value.at(fall.time).slope);
     const Real x = fma(lane.speed, time, lane.x);

@@ -111,4 +111,31 @@ HOPSCOTCH_DEVICE inline first_fall<Real> first_fall_between(Function&& falling,
     return {found, time};
 }
 
+/// The same, given a polynomial whose sign changes split the function into monotone pieces.
+///
+/// \param bends  lanes that need the split; the others fall monotonically
+template <int Degree, class Real, class Function>
+HOPSCOTCH_DEVICE inline first_fall<Real> first_fall_of(Function&& falling,
+                                                       const Real (&polynomial)[Degree + 1],
+                                                       const Real& to, const mask_of<Real>& bends,
+                                                       const mask_of<Real>& wanted) {
+    // over a whole set of starts pieces come and go; such an arithmetic isolates the fall itself
+    if constexpr (requires { bracket_of_first_fall(falling, to, wanted); }) {
+        const bracket<Real> within = bracket_of_first_fall(falling, to, wanted);
+        const auto rising = [&](const Real& t) {
+            const value_and_slope<Real> f = falling(t);
+            return value_and_slope<Real>{-f.value, -f.slope};
+        };
+        return {wanted, bracketed_root<Real>(rising, within, within.low, wanted)};
+    } else {
+        break_points<Degree, Real> points;
+        for (int i = 0; i < Degree; ++i) points.at[i] = to;
+        if (any(bends)) {
+            const auto changes = sign_changes<Degree>(polynomial, to, bends);
+            for (int i = 0; i < Degree; ++i) points.at[i] = select(bends, changes.at[i], to);
+        }
+        return first_fall_between(falling, points, to, wanted);
+    }
+}
+
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET::mirror

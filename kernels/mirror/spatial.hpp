@@ -196,14 +196,9 @@ HOPSCOTCH_DEVICE inline spatial_contact<Real> cone_contact(const arm_flight<Real
     plain polynomial[5];
     value.extremum_polynomial(polynomial);
     const plain end = select(wanted, primal(flight_end), plain(1.0));
-    break_points<4, plain> points{{end, end, end, end}};
     const mask_of<Real> bends = wanted & (value.slope < plain(0.0));
-    if (any(bends)) {
-        const auto extrema = sign_changes<4>(polynomial, end, bends);
-        for (int i = 0; i < 4; ++i) points.at[i] = select(bends, extrema.at[i], end);
-    }
     const auto falling = [&](const plain& t) { return value.at(t); };
-    const first_fall<plain> fall = first_fall_between(falling, points, end, wanted);
+    const first_fall<plain> fall = first_fall_of<4>(falling, polynomial, end, bends, wanted);
     const Real time =
         implicit_root(fall.time, gap.at(Real(fall.time)).value, value.at(fall.time).slope);
     const Real distance = ball.distance_at(time);
@@ -246,9 +241,8 @@ HOPSCOTCH_DEVICE inline spatial_contact<Real> current_contact(const current_law<
     plain polynomial[8];
     value.slope_polynomial(polynomial);
     const plain end = select(wanted, primal(flight_end), plain(1.0));
-    const auto points = sign_changes<7>(polynomial, end, wanted);
     const auto falling = [&](const plain& t) { return value.at(t); };
-    const first_fall<plain> fall = first_fall_between(falling, points, end, wanted);
+    const first_fall<plain> fall = first_fall_of<7>(falling, polynomial, end, wanted, wanted);
     const Real time =
         implicit_root(fall.time, law.at(Real(fall.time)).value, value.at(fall.time).slope);
     const Real distance = ball.distance_at(time);

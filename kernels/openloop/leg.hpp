@@ -15,7 +15,7 @@ template <class Real>
 HOPSCOTCH_DEVICE inline Real fall_time(const Real& height, const Real& rise) {
     const Real speed = sqrt(fma(rise, rise, Real(2.0) * height));
     const mask_of<Real> rises = rise >= Real(0.0);
-    return select(rises, rise + speed, Real(2.0) * height / select(rises, Real(1.0), speed - rise));
+    return select_form(rises, rise + speed, Real(2.0) * height / (speed - rise));
 }
 
 /// Body above the relaxing leg. The leg's end is at force - stretch e^{-t / lag} until it reaches

@@ -56,8 +56,8 @@ struct oscillator {
         if (any(is_short)) {  // the step response cancels: huge thrust for a tiny time needs its
                               // digits
             const response<Real> series = series_at(s);
-            result.step = select(is_short, series.step, result.step);
-            result.impulse = select(is_short, series.impulse, result.impulse);
+            result.step = select_form(is_short, series.step, result.step);
+            result.impulse = select_form(is_short, series.impulse, result.impulse);
         }
         return result;
     }

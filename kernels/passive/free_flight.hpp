@@ -75,8 +75,8 @@ struct free_flight {
         const mask_of<Real> is_short = t < Real(0.5);
         if (any(is_short)) {
             const auto series = spring.departure(t);
-            value = select(is_short, series.value, value);
-            rate = select(is_short, series.rate, rate);
+            value = select_form(is_short, series.value, value);
+            rate = select_form(is_short, series.rate, rate);
         }
         return {value, rate};
     }

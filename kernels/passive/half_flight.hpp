@@ -69,9 +69,9 @@ HOPSCOTCH_DEVICE inline bracket_terms<Real> brackets_at(const Real& xi) {
                            fma(xi, xi, -(angle.sin * angle.sin)), fma(xi, angle.cos, -angle.sin)};
     const mask_of<Real> is_small = abs(xi) < Real(0.5);
     if (any(is_small)) {
-        at.a = select(is_small, x_minus_sin_cos_series(xi), at.a);
-        at.b = select(is_small, square_minus_sin_square_series(xi), at.b);
-        at.e = select(is_small, x_cos_minus_sin_series(xi), at.e);
+        at.a = select_form(is_small, x_minus_sin_cos_series(xi), at.a);
+        at.b = select_form(is_small, square_minus_sin_square_series(xi), at.b);
+        at.e = select_form(is_small, x_cos_minus_sin_series(xi), at.e);
     }
     return at;
 }

@@ -29,7 +29,7 @@ HOPSCOTCH_DEVICE inline unit_push<Real> push(const Real& s, const Real& friction
     Real sum(1.0);
     for (int k = terms; k >= 1; --k) sum = one - y / Real(static_cast<double>(k + 2)) * sum;
     const Real near = Real(0.5) * s * s * sum;
-    return {velocity, select(y < Real(0.3), near, (s - velocity) / divisor)};
+    return {velocity, select_form(y < Real(0.3), near, (s - velocity) / divisor)};
 }
 
 /// How thrust ends.

@@ -42,9 +42,9 @@ struct damped_spring {
         const auto is_short = t * (Real(2.0) * a + sqrt(eta)) <= Real(0.5);
         moved_state<Real> end = far(t, pull, v);
         if (any(is_short)) {
-            const moved_state<Real> near = series(select(is_short, t, Real(0.0)), pull, v);
-            end.displacement = select(is_short, near.displacement, end.displacement);
-            end.velocity = select(is_short, near.velocity, end.velocity);
+            const moved_state<Real> near = series(t, pull, v);
+            end.displacement = select_form(is_short, near.displacement, end.displacement);
+            end.velocity = select_form(is_short, near.velocity, end.velocity);
         }
         return end;
     }

@@ -194,8 +194,8 @@ HOPSCOTCH_DEVICE inline sweep<Real> linear_sweep(const impact_angle<Real>& alpha
         const mask_of<Real> deep = wanted & (turn.length < Real(0.05));
         if (any(deep)) {
             const sweep<Real> finer = gauss_sum(integrand, u_end, legendre_32);
-            result = {select(deep, finer.angle, result.angle),
-                      select(deep, finer.duration, result.duration)};
+            result = {select_form(deep, finer.angle, result.angle),
+                      select_form(deep, finer.duration, result.duration)};
         }
     } else {
         result = exponential_sum(integrand, u_end);
