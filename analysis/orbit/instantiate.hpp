@@ -36,6 +36,7 @@ public:
 
     template <class Watch>
     void run(const Real* columns, const Real* parameters, Watch& watch) {
+        take_tolerance<Model, Variant, Real>(lane, row_.tolerance);
         progress<Real> done = Model::template begin<Variant>(lane, row_.section, columns,
                                                              parameters, row_.options, watch);
         book(done);
@@ -220,7 +221,8 @@ return_jet jet_of(const jet_query& query) {
     const orbit_row row{.section = query.section,
                         .options = query.options,
                         .returns = query.returns,
-                        .max_steps = query.max_steps};
+                        .max_steps = query.max_steps,
+                        .tolerance = query.tolerance};
     single_orbit<Model, Variant, number> orbit(row);
     unwatched watch;
     orbit.run(columns.data(), parameters.data(), watch);

@@ -25,6 +25,7 @@ struct orbit_row {
     std::span<const std::string> parameters;
     std::uint32_t returns = 1;
     double max_steps = 1e5;  // per return
+    double tolerance = 0.0;  // of integrated flows, as in ensemble_request; only double heeds it
     bool derivative = false;
 
     // to label the orbit instead of counting its returns
@@ -56,6 +57,7 @@ struct jet_query {
     const double* parameters = nullptr;  // one per parameter of the model
     std::uint32_t returns = 1;
     double max_steps = 1e5;  // per return
+    double tolerance = 0.0;  // of integrated flows, as in ensemble_request
     int by_parameter = -1;   // also differentiate by this parameter
 };
 

@@ -72,6 +72,10 @@ void add_eval(CLI::App& program, int& exit_code) {
         ->add_option("--max-events", given->what.max_events,
                      "Events per return before `budget` (1e5)")
         ->check(CLI::Range(1.0, 1e15));
+    command
+        ->add_option("--tolerance", given->what.tolerance,
+                     "Local relative error of integrated flows in double (1e-10)")
+        ->check(CLI::Range(least_tolerance, greatest_tolerance));
     command->add_flag("--derivative", given->what.has_derivative,
                       "Derivatives of the final state too");
     command->callback([given, &exit_code] { exit_code = eval(*given); });

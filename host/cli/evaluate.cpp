@@ -69,6 +69,7 @@ orbit_row row_of(const row_source& rows, const evaluation& what, const start_row
     row.parameters = start.parameter_texts;
     row.returns = what.returns;
     row.max_steps = what.max_events;
+    row.tolerance = what.tolerance;
     return row;
 }
 
@@ -85,6 +86,7 @@ public:
         request_.section = rows.section();
         request_.max_returns = what.returns;
         request_.max_steps = what.max_events;
+        request_.tolerance = what.tolerance;
         std::copy(group.options.begin(), group.options.end(), request_.options);
         gather(all.columns, request_.columns);
         gather(all.parameters, request_.parameters);

@@ -4,6 +4,7 @@
 
 #include "host/cli/row_source.hpp"
 #include "host/run/truth_orbits.hpp"
+#include "host/scene/scene.hpp"
 
 #include <cstdint>
 #include <string>
@@ -14,6 +15,7 @@ namespace hopscotch {
 struct evaluation {
     std::uint32_t returns = 1;
     double max_events = 1e5;  // steps of work per return
+    double tolerance = standard_tolerance;
     hopscotch::precision precision = precision::binary64;
     bool has_derivative = false;
     std::string backend = "auto";

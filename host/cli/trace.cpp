@@ -4,6 +4,7 @@
 #include "host/cli/row_source.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/cli/trace_writer.hpp"
+#include "host/scene/scene.hpp"
 
 #include <memory>
 
@@ -18,6 +19,7 @@ struct trace_arguments {
     std::vector<std::string> sets;
     std::uint32_t returns = 1;
     double max_events = 1e5;
+    double tolerance = standard_tolerance;
     int samples = 0;
     std::string format = "csv";
     std::string output;
@@ -36,6 +38,7 @@ int trace(const trace_arguments& given) {
     row.parameters = start.parameter_texts;
     row.returns = given.returns;
     row.max_steps = given.max_events;
+    row.tolerance = given.tolerance;
     const auto format = given.format == "csv" ? trace_format::csv : trace_format::jsonl;
     put_text(given.output, trace_text(model, row, given.samples, format));
     return exit_done;
@@ -58,6 +61,10 @@ void add_trace(CLI::App& program, int& exit_code) {
     command
         ->add_option("--max-events", given->max_events, "Events per return before `budget` (1e5)")
         ->check(CLI::Range(1.0, 1e15));
+    command
+        ->add_option("--tolerance", given->tolerance,
+                     "Local relative error of integrated flows in double (1e-10)")
+        ->check(CLI::Range(least_tolerance, greatest_tolerance));
     command->add_option("--output", given->output, "File; standard output if not given");
     command->callback([given, &exit_code] { exit_code = trace(*given); });
 }

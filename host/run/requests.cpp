@@ -22,6 +22,7 @@ ensemble_request common_request(const scene& scene, const label_plan& plan) {
     request.max_returns = most_returns_of(scene);
     if (is_chaos_map(scene)) request.exponents = exponents_of(scene);
     request.max_steps = static_cast<double>(scene.accuracy.max_events);
+    request.tolerance = scene.accuracy.tolerance;
     request.decided_by = plan.decided_by;
     request.died_label = plan.died_label;
     request.traps = plan.traps.empty() ? nullptr : plan.traps.data();

@@ -37,6 +37,7 @@ owned_row row_of(const scene& scene, const label_plan& plan,
     row.parameters = result.parameters;
     row.returns = most_returns_of(scene);
     row.max_steps = static_cast<double>(scene.accuracy.max_events);
+    row.tolerance = scene.accuracy.tolerance;
     row.decided_by = plan.decided_by;
     row.died_label = plan.died_label;
     const std::size_t point = point_index(scene, plan, coordinates);

@@ -1,7 +1,8 @@
 // One number for everything that decides a map's numbers: tiles of an interrupted run are taken up
 // again only under the same fingerprint. File name, compression, tile shape, layers, titles and the
 // audit leave every number as it is and do not enter (the store compares tiles and layers by
-// itself).
+// itself), nor does the tolerance where no flow is integrated.
+#include "host/scene/grid.hpp"
 #include "host/scene/readers.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +22,14 @@ std::string hash_of(std::string_view text) {
     }
     return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(hash >> 64),
                        static_cast<std::uint64_t>(hash));
+}
+
+/// Does the tolerance decide any number of this map?
+bool integrates(const scene& scene) {
+    if (scene.model->integrates == nullptr) return false;
+    const parameter_extremes extremes = extremes_of(scene);
+    return scene.model->integrates(scene.model->variant(
+        {extremes.lowest.data(), extremes.highest.data(), scene.options.data()}));
 }
 
 /// The scene in a form in which two scenes with the same numbers read the same.
@@ -49,8 +58,9 @@ std::string canonical(const scene& scene) {
     for (const auto& [name, number] : scene.question.numbers) {
         text += fmt::format("number {} {:a}\n", name, number);
     }
-    text += fmt::format("accuracy {} {:a} {}\n", scene.accuracy.precision, scene.accuracy.tolerance,
-                        scene.accuracy.max_events);
+    text +=
+        fmt::format("accuracy {} {:a} {}\n", scene.accuracy.precision,
+                    integrates(scene) ? scene.accuracy.tolerance : 0.0, scene.accuracy.max_events);
     return text;
 }
 

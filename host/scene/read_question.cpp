@@ -65,8 +65,8 @@ void read_accuracy(scene& scene, const table_reader& root) {
         static_cast<std::uint64_t>(table.whole("audit_cells", 0, 1'000'000'000)
                                        .value_or(static_cast<std::int64_t>(accuracy.audit_cells)));
     accuracy.tolerance = table.number("tolerance").value_or(accuracy.tolerance);
-    if (!(accuracy.tolerance > 0.0 && accuracy.tolerance < 1.0)) {
-        table.refuse("tolerance", "outside (0, 1)", "1e-10");
+    if (!(accuracy.tolerance >= least_tolerance && accuracy.tolerance <= greatest_tolerance)) {
+        table.refuse("tolerance", "outside [1e-16, 0.01]", "1e-10");
     }
     accuracy.max_events =
         static_cast<std::uint64_t>(table.whole("max_events", 1, 1'000'000'000'000)

@@ -43,12 +43,18 @@ struct scene_question {
     double number(std::string_view name, double otherwise = 0.0) const;
 };
 
+/// What `accuracy.tolerance` and `--tolerance` may be: below, rounding rules; above, a step would
+/// pass the series' radius of convergence. The meaning: kernels/integrators/taylor.hpp.
+inline constexpr double least_tolerance = 1e-16;
+inline constexpr double greatest_tolerance = 1e-2;
+inline constexpr double standard_tolerance = 1e-10;
+
 struct scene_accuracy {
     std::string place;  // where the precision is set, for messages
     std::string precision = "double";
     std::uint64_t audit_cells = 1000;
-    double tolerance = 1e-10;           // only where a flow is integrated
-    std::uint64_t max_events = 100000;  // steps of work per return before the outcome `budget`
+    double tolerance = standard_tolerance;  // only where a flow is integrated
+    std::uint64_t max_events = 100000;      // steps of work per return before the outcome `budget`
 };
 
 struct scene_output {

@@ -24,6 +24,7 @@ struct model_entry {
     bool (*describe_label)(int label, label_description&);
     bool (*branch)(int index, map_branch&);
     double (*turn)(int section, int column, const double* parameters);
+    bool (*integrates)(int variant);  // does accuracy.tolerance decide its numbers?
     // Tables are reached through pointers to them, so that no unit depends on another's
     // initialisation.
     const ensemble_function* const* kernels[n_backends];   // per backend; null where not built

@@ -4,6 +4,8 @@
 #include "kernels/contract/entry.hpp"
 #include "kernels/contract/model.hpp"
 
+#include <utility>
+
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
 /// A model some of whose columns are phases that wrap: turn(section, column, parameters) is the
@@ -12,6 +14,17 @@ template <class Model>
 concept has_turns = requires(const double* parameters) {
     { Model::turn(0, 0, parameters) } -> std::same_as<double>;
 };
+
+template <class Model, int... Variant>
+bool one_integrates(int variant, std::integer_sequence<int, Variant...>) {
+    return ((variant == Variant && integrates<Model, Variant, double>) || ...);
+}
+
+/// Whether a compile-time variant of the model integrates a flow.
+template <class Model>
+bool variant_integrates(int variant) {
+    return one_integrates<Model>(variant, std::make_integer_sequence<int, Model::n_variants>{});
+}
 
 /// The parts of an entry that come from the header alone; kernels and orbits are added by the unit.
 template <class Model>
@@ -25,6 +38,7 @@ constexpr model_entry described_entry() {
         entry.certificate_covers = &Model::certificate_covers;
         entry.describe_label = &Model::describe_label;
     }
+    entry.integrates = &variant_integrates<Model>;
     if constexpr (has_branches<Model>) entry.branch = &Model::branch;
     if constexpr (has_turns<Model>) entry.turn = &Model::turn;
     return entry;

@@ -20,6 +20,10 @@
 //       // optional: how many leading members of a lane `begin` derives from parameters and options
 //       // alone and nothing changes later; where no parameter varies they are not moved with a
 //       lane static constexpr int n_parameter_fields = 0;
+//       // optional, where a variant integrates a flow: takes the tolerance asked for (see
+//       // kernels/integrators/taylor.hpp; 0 = the arithmetic's own). Called before `begin`, which
+//       // must leave it alone.
+//       template <int Variant, class Real> static void set_tolerance(lane<Real>&, double);
 //       // optional: the model's own proof of where an orbit ends, for which scenes it labels every
 //       // attracted orbit, and what its labels are (false: no such label)
 //       template <int Variant, class Real> static Real certificate(const lane<Real>&);
@@ -106,6 +110,21 @@ inline constexpr int parameter_fields_of = 0;
 template <class Model>
 requires requires { Model::n_parameter_fields; }
 inline constexpr int parameter_fields_of<Model> = Model::n_parameter_fields;
+
+/// A model whose variant integrates a flow to a tolerance.
+template <class Model, int Variant, class Real>
+concept integrates = requires(typename Model::template lane<Real>& lane) {
+    Model::template set_tolerance<Variant>(lane, 1e-10);
+};
+
+/// Hands the tolerance to a lane that is about to begin, where its variant integrates.
+template <class Model, int Variant, class Real>
+HOPSCOTCH_DEVICE inline void take_tolerance(typename Model::template lane<Real>& lane,
+                                            double tolerance) {
+    if constexpr (integrates<Model, Variant, Real>) {
+        Model::template set_tolerance<Variant>(lane, tolerance);
+    }
+}
 
 /// A model that can prove where an orbit ends.
 template <class Model, class Real>

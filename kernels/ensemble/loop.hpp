@@ -39,6 +39,7 @@ private:
         unwatched watch;
         at.returns = at.steps = Real(0.0);
         at.busy = is_cell;
+        take_tolerance<Model, Variant, Real>(at.motion, request_.tolerance);
         const progress<Real> done = Model::template begin<Variant>(
             at.motion, request_.section, columns, parameters, request_.options, watch);
         settle(at, cells, done, is_cell > Real(0.0));

@@ -69,6 +69,7 @@ struct ensemble_request {
 
     std::uint32_t max_returns = 1;
     double max_steps = 1e5;  // steps of work per return before the outcome `budget`
+    double tolerance = 0.0;  // of integrated flows, see kernels/integrators/taylor.hpp; 0: 2^-47
     decision decided_by = decision::returns;
     std::int16_t died_label = 0;  // label of orbits that end by the outcome `stuck` or `rest`
 

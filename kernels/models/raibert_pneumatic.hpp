@@ -85,10 +85,17 @@ struct raibert_pneumatic {
         Real fresh;                    // 1 at the beginning of an arc
         Real arc_time, arc_steps;
         Real was_cut;
+        Real tolerance;  // of a step of the integrator
         Real
             owed;  // time from the section state to where `time` must begin: the fall from the apex
         Real time, events;
     };
+
+    template <int Variant, class Real>
+    requires(Variant == 0) HOPSCOTCH_DEVICE
+        static void set_tolerance(lane<Real>& lane, double tolerance) {
+        lane.tolerance = Real(taylor::tolerance_for<Real>(tolerance));
+    }
 
     template <int Variant, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> begin(lane<Real>& lane, int section, const Real* columns,
@@ -110,6 +117,8 @@ struct raibert_pneumatic {
         lane.spring = lane.thrust * lane.lift_height;
         lane.time = lane.events = lane.owed = zero;
         lane.speed = lane.fresh = one;
+        if constexpr (Variant != 0)
+            lane.tolerance = Real(taylor::default_tolerance<Real>);  // of a trace
 
         mask_of<Real> valid = (columns[0] > zero) & (columns[0] - columns[0] == zero);
         if (section == 0) {
@@ -399,7 +408,7 @@ private:
         const auto a =
             pneumatic::expand(from, select(lane.extending > zero, lane.spring, lane.stiffness),
                               lane.friction, lane.gravity);
-        const plain horizon = pneumatic::step_of(a);
+        const plain horizon = pneumatic::step_of(a, lane.tolerance);
         const Real still = select(extends & (lane.velocity == zero), one, zero);
         taylor::series<Real> turning = taylor::without_zeros(a.velocity, still);
         for (int n = 0; n <= taylor::order<Real>; ++n)

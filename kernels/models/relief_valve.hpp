@@ -59,8 +59,14 @@ struct relief_valve {
         Real turn_zeros;    // of v
         Real top_x, top_p;  // section state
         Real impacts;
+        Real tolerance;  // of a step of the integrator
         Real time, events;
     };
+
+    template <int Variant, class Real>
+    HOPSCOTCH_DEVICE static void set_tolerance(lane<Real>& lane, double tolerance) {
+        lane.tolerance = Real(taylor::tolerance_for<Real>(tolerance));
+    }
 
     template <int Variant, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> begin(lane<Real>& lane, int, const Real* columns,
@@ -94,7 +100,7 @@ struct relief_valve {
         const Real zero(0.0);
         const Real one(1.0);
         const motion<Real> a = expand(lane);
-        const plain horizon = a.size.length(plain(taylor::default_tolerance<Real>), plain(4.0));
+        const plain horizon = a.size.length(primal(lane.tolerance), plain(4.0));
 
         const auto seat =
             taylor::first_zero(taylor::without_zeros(a.x, lane.seat_zeros), horizon, active);

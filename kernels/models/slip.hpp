@@ -78,6 +78,12 @@ struct slip {
     template <class Real>
     using lane = spring_leg::runner<Real>;
 
+    template <int Variant, class Real>
+    requires(has_stance_gravity<Variant>) HOPSCOTCH_DEVICE
+        static void set_tolerance(lane<Real>& lane, double tolerance) {
+        lane.tolerance = Real(taylor::tolerance_for<Real>(tolerance));
+    }
+
     template <int Variant, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> begin(lane<Real>& lane, int section, const Real* columns,
                                                  const Real* parameter, const int*, Watch&) {
@@ -250,8 +256,8 @@ private:
         } else {
             expand_linear(a, lane.stiffness, lane.gravity);
         }
-        const stance_step<Real> step =
-            advance(a, lane.untouched, IsAir ? Real(2.0) * closing : closing, moves);
+        const stance_step<Real> step = advance(
+            a, lane.untouched, IsAir ? Real(2.0) * closing : closing, lane.tolerance, moves);
         const Real s = step.length_of_step;
         const Real passed = IsAir ? s : taylor::evaluate(a.time, s);
         if constexpr (Watch::is_active) {

@@ -1,7 +1,7 @@
-// The spring-mass runner with a body that pitches: the leg is hinged at a hip away from the centre of mass and
-// is reset in flight to a fixed angle in space or relative to the body. Four state columns; the energy, not
-// the speed, is conserved.
-// Source: models/slip.md section 6; Ghigliazza, Altendorfer, Holmes, Koditschek, SIAM Review 47 (2005) 519-549.
+// The spring-mass runner with a body that pitches: the leg is hinged at a hip away from the centre
+// of mass and is reset in flight to a fixed angle in space or relative to the body. Four state
+// columns; the energy, not the speed, is conserved. Source: models/slip.md section 6; Ghigliazza,
+// Altendorfer, Holmes, Koditschek, SIAM Review 47 (2005) 519-549.
 #pragma once
 
 #include "kernels/spring_leg/pitching_flight.hpp"
@@ -18,17 +18,29 @@ struct slip_pitching {
         {"stiffness", "k, c", "N/m or N m^3", 100.0, positive,
          "linear: k, force k (eta0 - eta); air: c, force c / eta^3"},
         {"gravity", "g", "m/s^2", 9.81, positive, "gravitational acceleration"},
-        {"touchdown_angle", "beta", "rad", 1.25, {0.0, 0x1.921fb54442d18p+0, false, false},
+        {"touchdown_angle",
+         "beta",
+         "rad",
+         1.25,
+         {0.0, 0x1.921fb54442d18p+0, false, false},
          "leg above the horizontal at touchdown (of a body at pitch 0), in (0, pi/2)"},
         {"hip_offset", "d", "m", 0.015, any_finite, "height of the hip above the centre of mass"},
         {"inertia", "I", "kg m^2", 0.0225, positive, "moment of inertia about the centre of mass"}};
     enum parameter_index {
-        mass, leg_length, stiffness, gravity, touchdown_angle, hip_offset, inertia
+        mass,
+        leg_length,
+        stiffness,
+        gravity,
+        touchdown_angle,
+        hip_offset,
+        inertia
     };
 
     static constexpr column_info touchdown_columns[] = {
         {"speed", "m/s", positive, "v, speed of the centre of mass at touchdown"},
-        {"angle", "rad", {-0x1.921fb54442d18p+1, 0x1.921fb54442d18p+1},
+        {"angle",
+         "rad",
+         {-0x1.921fb54442d18p+1, 0x1.921fb54442d18p+1},
          "delta, its velocity below the horizontal"},
         {"pitch", "rad", any_finite, "theta, the body's angle, counterclockwise, not wrapped"},
         {"pitch_rate", "rad/s", any_finite, "theta'"}};
@@ -36,13 +48,13 @@ struct slip_pitching {
         {"touchdown", touchdown_columns, 0, "the foot touches the ground"}};
     static constexpr std::string_view springs[] = {"linear", "air"};
     static constexpr std::string_view placements[] = {"inertial", "body"};
-    static constexpr option_info options[] = {
-        {"spring", springs, "force law of the leg"},
-        {"leg_placement", placements,
-         "what the leg's touchdown angle is fixed to: the ground (beta) or the body (beta - theta)"}};
-    static constexpr outcome outcomes[] = {outcome::ok,      outcome::no_contact, outcome::ground,
-                                           outcome::no_liftoff, outcome::stumble, outcome::reverse,
-                                           outcome::unresolved_event};
+    static constexpr option_info options[] = {{"spring", springs, "force law of the leg"},
+                                              {"leg_placement", placements,
+                                               "what the leg's touchdown angle is fixed to: the "
+                                               "ground (beta) or the body (beta - theta)"}};
+    static constexpr outcome outcomes[] = {
+        outcome::ok,      outcome::no_contact, outcome::ground,          outcome::no_liftoff,
+        outcome::stumble, outcome::reverse,    outcome::unresolved_event};
     static constexpr column_info trace_columns[] = {
         {"x", "m", any_finite, "centre of mass, forward of the foothold of the phase"},
         {"y", "m", any_finite, "height of the centre of mass"},
@@ -72,9 +84,15 @@ struct slip_pitching {
     template <class Real>
     using lane = spring_leg::pitching_runner<Real>;
 
+    template <int Variant, class Real>
+    HOPSCOTCH_DEVICE static void set_tolerance(lane<Real>& lane, double tolerance) {
+        lane.tolerance = Real(taylor::tolerance_for<Real>(tolerance));
+    }
+
     template <int Variant, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> begin(lane<Real>& lane, int, const Real* columns,
-                                                 const Real* parameter, const int* options, Watch&) {
+                                                 const Real* parameter, const int* options,
+                                                 Watch&) {
         const Real zero(0.0);
         const Real one(1.0);
         take_parameters<has_air_spring<Variant>>(lane, parameter, options);
@@ -87,16 +105,19 @@ struct slip_pitching {
         lane.in_stance = lane.elapsed = zero;
         lane.untouched = lane.length = one;
         const Real speed = lane.speed / lane.speed_unit;
-        lane.energy = fma(Real(0.5) * speed, speed,
-                          spring_leg::energy_beside_speed(lane, lane.pitch, lane.pitch_rate * lane.time_unit));
-        const mask_of<Real> finite = (lane.energy - lane.energy == zero) & (lane.angle - lane.angle == zero);
+        lane.energy = fma(
+            Real(0.5) * speed, speed,
+            spring_leg::energy_beside_speed(lane, lane.pitch, lane.pitch_rate * lane.time_unit));
+        const mask_of<Real> finite =
+            (lane.energy - lane.energy == zero) & (lane.angle - lane.angle == zero);
         const mask_of<Real> valid = finite & (lane.speed > zero);
         const mask_of<Real> none = valid & !valid;
         return {none, select(valid, zero, code_of<Real>(outcome::invalid_start))};
     }
 
     template <int Variant, class Real, class Watch>
-    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active, Watch& watch) {
+    HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
+                                                Watch& watch) {
         using namespace spring_leg;
         constexpr bool is_air = has_air_spring<Variant>;
         const Real zero(0.0);
@@ -118,7 +139,7 @@ struct slip_pitching {
         } else {
             expand_linear(a, lane);
         }
-        const pitching_step<Real> step = advance<is_air>(a, lane.hip, lane.untouched, closing, moves);
+        const pitching_step<Real> step = advance<is_air>(a, lane, closing, moves);
         const Real s = step.length_of_step;
         const Real passed = is_air ? s : taylor::evaluate(a.time, s);
         if constexpr (Watch::is_active) {
@@ -129,7 +150,8 @@ struct slip_pitching {
 
         const mask_of<Real> lifts = moves & step.lifts;
         const mask_of<Real> grounds = moves & step.grounds;
-        const mask_of<Real> hangs = moves & !lifts & !grounds & (lane.elapsed > Real(longest_stance));
+        const mask_of<Real> hangs =
+            moves & !lifts & !grounds & (lane.elapsed > Real(longest_stance));
         const mask_of<Real> leaves = lifts | grounds | hangs;
         lane.in_stance = select(leaves | misses, zero, select(moves, one, lane.in_stance));
         lane.time = select(leaves, fma(lane.elapsed, lane.time_unit, lane.time), lane.time);
@@ -161,7 +183,7 @@ struct slip_pitching {
     template <class Real>
     HOPSCOTCH_DEVICE static void read_extras(const lane<Real>&, Real*) {}
 
-  private:
+private:
     /// Longest stance, in units of sqrt(leg length / g); beyond it there is `no_liftoff`.
     static constexpr double longest_stance = 1e4;
 
@@ -209,8 +231,9 @@ struct slip_pitching {
 
     /// Moves a lane to the end of its step.
     template <class Real>
-    HOPSCOTCH_DEVICE static void follow(lane<Real>& lane, const spring_leg::pitching_series<Real>& a,
-                                        const Real& s, const Real& passed, const mask_of<Real>& moves) {
+    HOPSCOTCH_DEVICE static void follow(lane<Real>& lane,
+                                        const spring_leg::pitching_series<Real>& a, const Real& s,
+                                        const Real& passed, const mask_of<Real>& moves) {
         lane.x = select(moves, taylor::evaluate(a.x, s), lane.x);
         lane.y = select(moves, taylor::evaluate(a.y, s), lane.y);
         lane.x_rate = select(moves, taylor::evaluate(a.x_rate, s), lane.x_rate);
@@ -221,8 +244,9 @@ struct slip_pitching {
         lane.elapsed = select(moves, lane.elapsed + passed, lane.elapsed);
     }
 
-    /// The flight of lanes that have just lifted off; books the new touchdown and returns the outcome's code.
-    /// The new speed is taken from the conserved energy, so that nothing drifts (page, section 13, case 8).
+    /// The flight of lanes that have just lifted off; books the new touchdown and returns the
+    /// outcome's code. The new speed is taken from the conserved energy, so that nothing drifts
+    /// (page, section 13, case 8).
     template <bool IsAir, class Real, class Watch>
     HOPSCOTCH_DEVICE static Real fly(lane<Real>& lane, const mask_of<Real>& flies, Watch& watch) {
         using namespace spring_leg;

@@ -56,12 +56,12 @@ HOPSCOTCH_DEVICE inline arc_series<Real> expand(const arc_state<Real>& from, con
 }
 
 template <class Real>
-HOPSCOTCH_DEVICE inline primal_of<Real> step_of(const arc_series<Real>& a) {
+HOPSCOTCH_DEVICE inline primal_of<Real> step_of(const arc_series<Real>& a, const Real& tolerance) {
     using plain = primal_of<Real>;
     taylor::step_length<Real> size;
     size.watch(a.length, 0.0);  // relative, however short the leg
     size.watch(a.velocity);
-    return size.length(plain(taylor::default_tolerance<Real>), plain(1e6));
+    return size.length(primal(tolerance), plain(1e6));
 }
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET::pneumatic

@@ -1,7 +1,7 @@
-// Stance of the pitching spring-mass runner, one Taylor step at a time: hip about the foothold, velocity of the
-// centre, pitch and its sine and cosine, and a function of the leg's length, so that the right-hand side is
-// polynomial. Units: leg length, gravity 1.
-// Source: models/slip.md section 6; Ghigliazza et al. 2005, (2.1)-(2.5).
+// Stance of the pitching spring-mass runner, one Taylor step at a time: hip about the foothold,
+// velocity of the centre, pitch and its sine and cosine, and a function of the leg's length, so
+// that the right-hand side is polynomial. Units: leg length, gravity 1. Source: models/slip.md
+// section 6; Ghigliazza et al. 2005, (2.1)-(2.5).
 #pragma once
 
 #include "kernels/integrators/first_zero.hpp"
@@ -20,7 +20,8 @@ struct pitching_series {
 
 /// The present state as the coefficients of s^0.
 template <class Real>
-HOPSCOTCH_DEVICE inline void begin_step(pitching_series<Real>& a, const pitching_runner<Real>& lane) {
+HOPSCOTCH_DEVICE inline void begin_step(pitching_series<Real>& a,
+                                        const pitching_runner<Real>& lane) {
     const auto turned = sin_cos(lane.turn);
     a.x.c[0] = lane.x;
     a.y.c[0] = lane.y;
@@ -34,12 +35,13 @@ HOPSCOTCH_DEVICE inline void begin_step(pitching_series<Real>& a, const pitching
     a.time.c[0] = Real(0.0);
 }
 
-/// Linear spring in the time s with dt = eta ds, so that a pass close to the foothold takes no shorter steps.
-/// With the hip's velocity (U, V) = (u - d theta' cos, w - d theta' sin) and g = 1 - eta:
-/// x' = eta U, y' = eta V, eta' = x U + y V, u' = k g x, w' = k g y - eta, theta' = eta omega,
+/// Linear spring in the time s with dt = eta ds, so that a pass close to the foothold takes no
+/// shorter steps. With the hip's velocity (U, V) = (u - d theta' cos, w - d theta' sin) and g = 1 -
+/// eta: x' = eta U, y' = eta V, eta' = x U + y V, u' = k g x, w' = k g y - eta, theta' = eta omega,
 /// omega' = -(d / I) k g (x cos + y sin).
 template <class Real>
-HOPSCOTCH_DEVICE inline void expand_linear(pitching_series<Real>& a, const pitching_runner<Real>& lane) {
+HOPSCOTCH_DEVICE inline void expand_linear(pitching_series<Real>& a,
+                                           const pitching_runner<Real>& lane) {
     using taylor::over;
     taylor::series<Real> hip_x, hip_y, pull_x, pull_y, turns, slack;
     const Real torque_scale = -(lane.hip / lane.inertia) * lane.stiffness;
@@ -98,7 +100,8 @@ HOPSCOTCH_DEVICE inline void expand_linear(pitching_series<Real>& a, const pitch
 /// Air spring in physical time with q = 1 / eta^2: x' = U, y' = V, u' = c q^2 x, w' = c q^2 y - 1,
 /// q' = -2 q^2 (x U + y V), omega' = -(d / I) c q^2 (x cos + y sin).
 template <class Real>
-HOPSCOTCH_DEVICE inline void expand_air(pitching_series<Real>& a, const pitching_runner<Real>& lane) {
+HOPSCOTCH_DEVICE inline void expand_air(pitching_series<Real>& a,
+                                        const pitching_runner<Real>& lane) {
     using taylor::over;
     taylor::series<Real> hip_x, hip_y, pull_x, pull_y, quartic, outward;
     const Real torque_scale = -(lane.hip / lane.inertia) * lane.stiffness;
@@ -152,9 +155,10 @@ struct pitching_step {
     Real length_of_step;  // in s
 };
 
-/// The longest step of the arithmetic's tolerance.
+/// The longest step of that tolerance.
 template <class Real>
-HOPSCOTCH_DEVICE inline primal_of<Real> longest_step(const pitching_series<Real>& a) {
+HOPSCOTCH_DEVICE inline primal_of<Real> longest_step(const pitching_series<Real>& a,
+                                                     const Real& tolerance) {
     using plain = primal_of<Real>;
     taylor::step_length<Real> size;
     size.watch(a.x);
@@ -166,25 +170,27 @@ HOPSCOTCH_DEVICE inline primal_of<Real> longest_step(const pitching_series<Real>
     size.watch(a.cos, 1.0);
     size.watch(a.sin, 1.0);
     size.watch(a.length);
-    return size.length(plain(taylor::default_tolerance<Real>), plain(8.0));
+    return size.length(primal(tolerance), plain(8.0));
 }
 
 /// One step: up to its full length, or to the first of lift-off and ground (of hip or centre).
 ///
 /// \param a         expanded
-/// \param untouched lanes whose lift-off guard is zero at the start because stance begins here
-/// \param closing   rate at which the leg shortens there, > 0
+/// \param lane      its hip, tolerance, and whether the lift-off guard is zero because stance
+/// begins here \param closing   rate at which the leg shortens there, > 0
 template <bool IsAir, class Real>
-HOPSCOTCH_DEVICE inline pitching_step<Real> advance(const pitching_series<Real>& a, const Real& hip,
-                                                    const Real& untouched, const Real& closing,
+HOPSCOTCH_DEVICE inline pitching_step<Real> advance(const pitching_series<Real>& a,
+                                                    const pitching_runner<Real>& lane,
+                                                    const Real& closing,
                                                     const mask_of<Real>& active) {
     using plain = primal_of<Real>;
-    const plain horizon = longest_step(a);
+    const Real& untouched = lane.untouched;
+    const plain horizon = longest_step(a, lane.tolerance);
     taylor::series<Real> guard;   // positive while the leg is compressed
     taylor::series<Real> centre;  // height of the body
     for (int n = 0; n <= taylor::order<Real>; ++n) {
         guard.c[n] = IsAir ? a.length.c[n] : -a.length.c[n];
-        centre.c[n] = fma(-hip, a.cos.c[n], a.y.c[n]);
+        centre.c[n] = fma(-lane.hip, a.cos.c[n], a.y.c[n]);
     }
     guard.c[0] = IsAir ? a.length.c[0] - Real(1.0) : Real(1.0) - a.length.c[0];
     guard = taylor::without_zeros(guard, untouched);

@@ -105,9 +105,11 @@ struct stance_step {
 /// \param a         expanded
 /// \param untouched lanes whose lift-off guard is zero at the start because stance begins here
 /// \param closing   rate of the guard there, > 0
+/// \param tolerance of the step
 template <class Real>
 HOPSCOTCH_DEVICE inline stance_step<Real> advance(const stance_series<Real>& a,
                                                   const Real& untouched, const Real& closing,
+                                                  const Real& tolerance,
                                                   const mask_of<Real>& active) {
     using plain = primal_of<Real>;
     taylor::step_length<Real> size;
@@ -116,7 +118,7 @@ HOPSCOTCH_DEVICE inline stance_step<Real> advance(const stance_series<Real>& a,
     size.watch(a.x_rate);
     size.watch(a.y_rate);
     size.watch(a.length);
-    const plain horizon = size.length(plain(taylor::default_tolerance<Real>), plain(8.0));
+    const plain horizon = size.length(primal(tolerance), plain(8.0));
     taylor::series<Real> guard = taylor::without_zeros(a.guard, untouched);
     guard.c[0] = select(untouched > Real(0.0), closing, guard.c[0]);
     const auto off = taylor::first_zero(guard, horizon, active);

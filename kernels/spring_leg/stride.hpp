@@ -25,6 +25,7 @@ struct runner {
     Real in_stance;  // 1 while under way
     Real elapsed;    // since touchdown
     Real untouched;  // 1 in the first step of a stance: the lift-off guard starts at zero
+    Real tolerance;  // of a step of the integrator
 };
 
 /// The body at lift-off.

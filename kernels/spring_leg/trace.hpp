@@ -84,7 +84,8 @@ struct reporter {
                 expand_linear(a, lane.stiffness, Real(0.0));
             }
             const auto step =
-                advance(a, Real(i == 0 ? 1.0 : 0.0), IsAir ? Real(2.0) * closing : closing, true);
+                advance(a, Real(i == 0 ? 1.0 : 0.0), IsAir ? Real(2.0) * closing : closing,
+                        Real(taylor::default_tolerance<Real>), true);
             if (step.broken || step.unresolved) return;
             const Real s = step.length_of_step;
             const Real passed = taylor::evaluate(a.time, s);

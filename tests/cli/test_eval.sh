@@ -43,4 +43,17 @@ claim_contains "with its events" "event," out.txt
 claim_equal "and its end" "end" "$(tail -1 out.txt | cut -d, -f1)"
 claim_exit "a trace as JSON lines is written" 0 \
     hopscotch trace passive_hopper --set liftoff_speed=5 --format jsonl
+
+printf 'speed,angle\n5,0.3\n' >runner.csv
+run_row() { hopscotch eval slip --input runner.csv "$@"; }
+claim_exit "a tolerance is taken" 0 run_row --tolerance 1e-4 --output loose.csv
+claim_exit "and so is the default" 0 run_row --output default.csv
+run_row --tolerance 1e-10 --output same.csv
+claim_equal "which is 1e-10" "$(cat default.csv)" "$(cat same.csv)"
+cmp -s loose.csv default.csv && fail "a looser tolerance gives other digits" "the same file"
+claim_equal "but the same first ones" "$(tail -1 default.csv | cut -c1-12)" \
+    "$(tail -1 loose.csv | cut -c1-12)"
+claim_exit "a tolerance beyond the series' reach is a usage error" 2 run_row --tolerance 0.5
+claim_exit "a trace takes one too" 0 \
+    hopscotch trace slip --set speed=5 --set angle=0.3 --tolerance 1e-6
 exit $failed

@@ -165,6 +165,7 @@ constexpr model_entry make_entry() {
     made.n_variants = 2;
     made.variant = variant;
     made.refusal = refusal;
+    made.integrates = [](int compiled_variant) { return compiled_variant == 0; };
     made.kernels[static_cast<int>(backend::scalar)] = &kernel_table;
     made.orbits_table = &orbit_table;
     return made;

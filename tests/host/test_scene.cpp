@@ -131,6 +131,26 @@ TEST(scene_fingerprint, changes_with_everything_that_decides_numbers) {
     }
 }
 
+TEST(scene_fingerprint, changes_with_the_tolerance_only_where_a_flow_is_integrated) {
+    const std::string steep = "model.options.law=steep";  // not integrated
+    EXPECT_NE(read({"accuracy.tolerance=1e-9"}).fingerprint, read().fingerprint);
+    EXPECT_EQ(read({steep, "accuracy.tolerance=1e-9"}).fingerprint, read({steep}).fingerprint);
+}
+
+TEST(scene_fingerprint, knows_which_variants_of_the_models_integrate) {
+    const auto depends = [](const std::string& scene, const std::vector<std::string>& overrides) {
+        const std::string file = HOPSCOTCH_SOURCE "/configs/scenes/" + scene + ".toml";
+        std::vector<std::string> looser = overrides;
+        looser.push_back("accuracy.tolerance=1e-7");
+        return read_scene(file, overrides, all_models()).fingerprint !=
+               read_scene(file, looser, all_models()).fingerprint;
+    };
+    EXPECT_TRUE(depends("ghigliazza2005_gravity", {}));
+    EXPECT_FALSE(depends("ghigliazza2005_gravity", {"model.options.stance_gravity=off"}));
+    EXPECT_TRUE(depends("relief_valve", {}));
+    EXPECT_FALSE(depends("quickstart", {}));
+}
+
 TEST(suggest, finds_the_closest_name_and_lists_all_where_none_is_close) {
     const std::vector<std::string_view> known{"restitution", "mass_ratio", "stiffness"};
     EXPECT_EQ(suggest("mas_ratio", known), "mass_ratio");

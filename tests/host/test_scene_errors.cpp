@@ -176,7 +176,7 @@ TEST(scene_errors, a_mistake_in_question_accuracy_or_output_is_named) {
         {"precision", "[question]\nkind = \"basins\"\n[accuracy]\nprecision = \"duble\"\n",
          "s.toml:13: accuracy.precision = \"duble\" (no such precision); double?"},
         {"tolerance", "[question]\nkind = \"basins\"\n[accuracy]\ntolerance = 0\n",
-         "s.toml:13: accuracy.tolerance = 0 (outside (0, 1)); 1e-10?"},
+         "s.toml:13: accuracy.tolerance = 0 (outside [1e-16, 0.01]); 1e-10?"},
         {"layer", "[question]\nkind = \"return_map\"\n[output]\nlayers = [\"label\"]\n",
          "s.toml:13: output.layers = [\"label\"] (no layer \"label\" for the question return_map "
          "on "
