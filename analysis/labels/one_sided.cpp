@@ -4,6 +4,8 @@
 #include "analysis/labels/plan.hpp"
 #include "analysis/labels/sampling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +23,11 @@ stability_side law_of(const return_map_samples& map, double point, double direct
     side.exponent = std::log(step_far / step_near) / std::log(far / near);
     side.coefficient = std::abs(step_near) / std::pow(near, side.exponent);
     return side;
+}
+
+/// The row of the lossless point of branch k; its speed may differ from parameter point to point.
+bool is_semi_stable(const attractor_row& row, int k) {
+    return row.name == fmt::format("fixed point {}", k) && row.multipliers_real == std::vector{1.0};
 }
 
 }  // namespace
@@ -50,11 +57,10 @@ std::vector<sided_attractor> sided_attractors(const scene& scene, const label_pl
     const return_map_samples map(scene, parameters);
     double floor = 0.0;
     map_branch branch{};
-    for (int k = 0; scene.model->branch(k, branch); ++k) {
-        const auto row = std::find_if(plan.attractors.begin(), plan.attractors.end(),
-                                      [&](const attractor_row& attractor) {
-                                          return attractor.points == std::vector{branch.base};
-                                      });
+    for (int k = 0; scene.model->branch(k, parameters.data(), branch); ++k) {
+        const auto row = std::find_if(
+            plan.attractors.begin(), plan.attractors.end(),
+            [&](const attractor_row& attractor) { return is_semi_stable(attractor, k); });
         if (row != plan.attractors.end()) {
             found.push_back({&*row, one_sided(map, branch, floor)});
         } else if (k > 0) {

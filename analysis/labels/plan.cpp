@@ -99,17 +99,17 @@ struct found_trap {
 };
 
 std::vector<found_trap> traps_at(const scene& scene, std::size_t point,
-                                 std::vector<double> parameters) {
-    const return_map_samples map(scene, std::move(parameters));
+                                 const std::vector<double>& parameters) {
+    const return_map_samples map(scene, parameters);
     std::vector<found_trap> found;
     const double highest = highest_start(scene);
     double floor = 0.0;
     map_branch branch{};
-    if (scene.model->branch(1, branch) && only_sinks(map, branch.base)) {
+    if (scene.model->branch(1, parameters.data(), branch) && only_sinks(map, branch.base)) {
         found.push_back(
             {point, 0, {0.0, std::nextafter(branch.base, 0.0), attractor_kind::resting}});
     }
-    for (int k = 0; scene.model->branch(k, branch); ++k) {
+    for (int k = 0; scene.model->branch(k, parameters.data(), branch); ++k) {
         if (branch.base > highest + 1.0) break;
         if (auto trap = find_interval_trap(map, branch, floor)) found.push_back({point, k, *trap});
         floor = branch.end;

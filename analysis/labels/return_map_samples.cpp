@@ -22,7 +22,6 @@ std::vector<double> return_map_samples::at(std::span<const double> x, std::uint3
     std::copy(scene_.options.begin(), scene_.options.end(), request.options);
     request.max_returns = returns;
     request.max_steps = static_cast<double>(scene_.accuracy.max_events);
-    request.tolerance = scene_.accuracy.tolerance;
     request.outcome = ended.data();
     request.state[0] = image.data();
     scene_.model->kernel(backend::scalar, variant_)(request);

@@ -46,7 +46,7 @@ public:
         }
     }
 
-    typename Model::template lane<Real> lane;
+    lane_of<Model, Variant, Real> lane;
     outcome end = outcome::ok;
     int label = 0;
     std::uint32_t returns = 0;

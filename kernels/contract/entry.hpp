@@ -22,7 +22,7 @@ struct model_entry {
     // null where the model does not offer them, see contract/model.hpp
     bool (*certificate_covers)(const variant_query&);
     bool (*describe_label)(int label, label_description&);
-    bool (*branch)(int index, map_branch&);
+    bool (*branch)(int index, const double* parameters, map_branch&);
     double (*turn)(int section, int column, const double* parameters);
     bool (*integrates)(int variant);  // does accuracy.tolerance decide its numbers?
     // Tables are reached through pointers to them, so that no unit depends on another's

@@ -18,8 +18,8 @@
 //       template <class Real> static void read_state(const lane<Real>&, int section, Real*
 //       columns); template <class Real> static void read_extras(const lane<Real>&, Real* extras);
 //       // optional: how many leading members of a lane `begin` derives from parameters and options
-//       // alone and nothing changes later; where no parameter varies they are not moved with a
-//       lane static constexpr int n_parameter_fields = 0;
+//       // alone and nothing changes later; where no parameter varies they are not moved with a lane
+//       static constexpr int n_parameter_fields = 0;
 //       // optional, where a variant integrates a flow: takes the tolerance asked for (see
 //       // kernels/integrators/taylor.hpp; 0 = the arithmetic's own). Called before `begin`, which
 //       // must leave it alone.
@@ -29,8 +29,12 @@
 //       template <int Variant, class Real> static Real certificate(const lane<Real>&);
 //       static bool certificate_covers(const variant_query&);
 //       static bool describe_label(int label, label_description&);
+//       // optional: variants whose trajectory is another type than lane<Real>; all functions that
+//       // take a lane then have an overload for it
+//       template <int Variant, class Real> using variant_lane = ...;
 //       // optional: the branches of a one-dimensional return map, index = 0, 1, 2, ...
-//       static bool branch(int index, map_branch&);  // and phases that wrap: see make_entry.hpp
+//       static bool branch(int index, const double* parameters, map_branch&);  // and phases that
+//       wrap: see make_entry.hpp
 //   };
 //
 // `begin` places a trajectory on (or flies it towards) the section; `step` performs a bounded
@@ -111,16 +115,29 @@ template <class Model>
 requires requires { Model::n_parameter_fields; }
 inline constexpr int parameter_fields_of<Model> = Model::n_parameter_fields;
 
+template <class Model, int Variant, class Real>
+struct choice_of_lane {
+    using type = typename Model::template lane<Real>;
+};
+template <class Model, int Variant, class Real>
+requires requires { typename Model::template variant_lane<Variant, Real>; }
+struct choice_of_lane<Model, Variant, Real> {
+    using type = typename Model::template variant_lane<Variant, Real>;
+};
+
+/// One trajectory of a compile-time variant.
+template <class Model, int Variant, class Real>
+using lane_of = typename choice_of_lane<Model, Variant, Real>::type;
+
 /// A model whose variant integrates a flow to a tolerance.
 template <class Model, int Variant, class Real>
-concept integrates = requires(typename Model::template lane<Real>& lane) {
+concept integrates = requires(lane_of<Model, Variant, Real>& lane) {
     Model::template set_tolerance<Variant>(lane, 1e-10);
 };
 
 /// Hands the tolerance to a lane that is about to begin, where its variant integrates.
 template <class Model, int Variant, class Real>
-HOPSCOTCH_DEVICE inline void take_tolerance(typename Model::template lane<Real>& lane,
-                                            double tolerance) {
+HOPSCOTCH_DEVICE inline void take_tolerance(lane_of<Model, Variant, Real>& lane, double tolerance) {
     if constexpr (integrates<Model, Variant, Real>) {
         Model::template set_tolerance<Variant>(lane, tolerance);
     }
@@ -141,8 +158,8 @@ concept labels_by_certificate = certifies<Model, double> && requires(label_descr
 
 /// A model with a one-dimensional return map that knows its branches.
 template <class Model>
-concept has_branches = requires(map_branch& branch) {
-    { Model::branch(0, branch) } -> std::same_as<bool>;
+concept has_branches = requires(const double* parameters, map_branch& branch) {
+    { Model::branch(0, parameters, branch) } -> std::same_as<bool>;
 };
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

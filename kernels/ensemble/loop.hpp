@@ -9,9 +9,9 @@ namespace hopscotch::inline HOPSCOTCH_TARGET {
 
 /// A trajectory and what the loop itself keeps of it. Only Real members, so that a lane is a column
 /// of doubles in memory.
-template <class Model, class Real>
+template <class Model, int Variant, class Real>
 struct trajectory {
-    typename Model::template lane<Real> motion;
+    lane_of<Model, Variant, Real> motion;
     Real returns;  // completed
     Real steps;    // of work since the last return
     Real busy;     // 1 while the lane holds an unfinished trajectory
@@ -20,10 +20,10 @@ struct trajectory {
 };
 
 template <class Model, int Variant, class Real>
-class ensemble
-    : public refilled_lanes<ensemble<Model, Variant, Real>, trajectory<Model, Real>, Real> {
-    using lanes = refilled_lanes<ensemble, trajectory<Model, Real>, Real>;
-    using state = trajectory<Model, Real>;
+class ensemble : public refilled_lanes<ensemble<Model, Variant, Real>,
+                                       trajectory<Model, Variant, Real>, Real> {
+    using lanes = refilled_lanes<ensemble, trajectory<Model, Variant, Real>, Real>;
+    using state = trajectory<Model, Variant, Real>;
 
 public:
     using lanes::lanes;

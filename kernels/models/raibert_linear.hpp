@@ -215,7 +215,7 @@ struct raibert_linear {
     }
 
     /// Touchdown speeds up to the fall edge; the search for traps ends there by itself.
-    static bool branch(int index, map_branch& result) {
+    static bool branch(int index, const double*, map_branch& result) {
         result = {1e-6, 30.0};
         return index == 0;
     }

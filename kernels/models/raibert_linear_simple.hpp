@@ -222,7 +222,7 @@ struct raibert_linear_simple {
         return label == 1 || label == 2;
     }
     /// Beyond Theorem 2: the energies 0 ... 10^4 m^2/s^2, on which the return map is continuous.
-    static bool branch(int index, map_branch& result) {
+    static bool branch(int index, const double*, map_branch& result) {
         result = {0.0, 1e4};
         return index == 0;
     }

@@ -241,7 +241,7 @@ struct model {
             return true;
         }
         map_branch branch{};
-        if (!model::branch(label - 1, branch)) return false;
+        if (!model::branch(label - 1, nullptr, branch)) return false;
         text = {.kind = "fixed point",
                 .index = label - 1,
                 .has_point = true,
@@ -252,7 +252,7 @@ struct model {
     }
 
     /// Branch k of the return map: [alpha*_k, (k + 1) pi].
-    static bool branch(int index, map_branch& result) {
+    static bool branch(int index, const double*, map_branch& result) {
         if (index < 0 || index > 100000) return false;
         const lossless<double> point = lossless_point(static_cast<double>(index));
         result = {point.high, (index + 1) * pi<double>()};

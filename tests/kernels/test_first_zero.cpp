@@ -32,6 +32,23 @@ series<Real> with_roots(std::initializer_list<double> roots, double scale = 1.0)
     return a;
 }
 
+TEST(first_zero, resolves_zeros_of_third_order_and_close_triples) {
+    // the curvature's bound alone would take 1e5 steps to come within 1e-5 of them
+    for (const double gap : {0.0, 1e-9, 1e-6, 1e-4}) {
+        for (const double next : {1.9, 40.0}) {
+            const series<double> guard =
+                with_roots<double>({1.3, 1.3 + gap, 1.3 + 2.0 * gap, next});
+            const auto answer = first_zero(guard, 2.0, true);
+            EXPECT_TRUE(answer.found) << gap;
+            EXPECT_FALSE(answer.unresolved) << gap;
+            EXPECT_NEAR(answer.time, 1.3, 1e-4) << gap;  // cube root of the value's noise
+        }
+    }
+    const auto wide = first_zero(with_roots<real50>({1.3, 1.3, 1.3, 1.9}), real50(2.0), true);
+    EXPECT_TRUE(wide.found);
+    EXPECT_LT(std::abs(to_double(wide.time - real50(1.3))), 1e-15);
+}
+
 TEST(first_zero, finds_the_first_of_two_crossings_inside_one_step) {
     const auto answer = first_zero(with_roots<double>({0.3, 0.3001, 2.0}), 1.0, true);
     EXPECT_TRUE(answer.found);

@@ -170,7 +170,7 @@ struct certificate_without_labels : complete {
     static Real certificate(const lane<Real>&);
 };
 struct branch_of_the_wrong_type : complete {
-    static void branch(int, map_branch&);
+    static void branch(int, const double*, map_branch&);
 };
 static_assert(!certifies<certificate_of_the_wrong_type, double>);
 static_assert(certifies<certificate_without_labels, double> &&
