@@ -18,8 +18,8 @@
 //       template <class Real> static void read_state(const lane<Real>&, int section, Real*
 //       columns); template <class Real> static void read_extras(const lane<Real>&, Real* extras);
 //       // optional: how many leading members of a lane `begin` derives from parameters and options
-//       // alone and nothing changes later; where no parameter varies they are not moved with a lane
-//       static constexpr int n_parameter_fields = 0;
+//       // alone and nothing changes later; where no parameter varies they are not moved with a
+//       lane static constexpr int n_parameter_fields = 0;
 //       // optional, where a variant integrates a flow: takes the tolerance asked for (see
 //       // kernels/integrators/taylor.hpp; 0 = the arithmetic's own). Called before `begin`, which
 //       // must leave it alone.

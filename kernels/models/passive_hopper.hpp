@@ -8,6 +8,7 @@ namespace hopscotch::inline HOPSCOTCH_TARGET {
 
 /// y1: body, y2: foot, both zero with the foot on the ground and the spring relaxed.
 struct hopper_coordinates {
+    static constexpr bool has_gravity_gradient = true;
     template <class Real>
     HOPSCOTCH_DEVICE static passive::engine_state<Real> read(const Real* column, Real mass_ratio) {
         // y2 = v2 = 0 on the ground for every mass ratio, unbounded included

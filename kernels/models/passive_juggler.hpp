@@ -9,6 +9,7 @@ namespace hopscotch::inline HOPSCOTCH_TARGET {
 /// w1: ball, w2: hand; the ball lies on the hand where w1 = w2, and the hand's spring is relaxed at
 /// w2 = 0.
 struct juggler_coordinates {
+    static constexpr bool has_gravity_gradient = false;
     template <class Real>
     HOPSCOTCH_DEVICE static passive::engine_state<Real> read(const Real* column, Real) {
         return {column[2] + Real(1.0), column[3], column[0] - column[2], column[1] - column[3]};

@@ -2,7 +2,10 @@
 // both (CPRR Eq (6)); they differ in the coordinates that users type and read.
 #pragma once
 
+#include "kernels/passive/nonlinear_map.hpp"
+#include "kernels/passive/nonlinear_trace.hpp"
 #include "kernels/passive/return_map.hpp"
+#include "kernels/passive/symmetric_hop.hpp"
 #include "kernels/passive/trace.hpp"
 
 namespace hopscotch::inline HOPSCOTCH_TARGET::passive {
@@ -27,14 +30,24 @@ inline constexpr parameter_info parameters[] = {
      0.0,
      {-unbounded, unbounded, false, false},
      "added to the launch velocity at every hop (Fig. 8)"},
-    {"quadratic_stiffness", "", "1", 0.0, only_zero,
-     "spring force s + q s^2 (needs the integrator: 0 in this version)"},
-    {"cubic_stiffness", "", "1", 0.0, only_zero,
-     "spring force s + c s^3 (needs the integrator: 0 in this version)"},
-    {"gravity_gradient", "", "1", 0.0, only_zero,
-     "height dependence of gravity (needs the integrator: 0 in this version)"},
+    {"quadratic_stiffness", "", "1", 0.0, any_finite, "q of the spring force s + q s^2 + c s^3"},
+    {"cubic_stiffness", "", "1", 0.0, any_finite, "c of the spring force s + q s^2 + c s^3"},
+    {"gravity_gradient",
+     "gamma",
+     "1",
+     0.0,
+     {-1.0, unbounded, false, false},
+     "gravity 1 + gamma y at height y; hopper only"},
 };
-enum parameter_index { mass_ratio, restitution, damping_ratio, speed_increment };
+enum parameter_index {
+    mass_ratio,
+    restitution,
+    damping_ratio,
+    speed_increment,
+    quadratic_stiffness,
+    cubic_stiffness,
+    gravity_gradient
+};
 
 inline constexpr column_info lift_off_columns[] = {
     {"liftoff_speed",
@@ -46,11 +59,20 @@ inline constexpr extra_info extras[] = {
     {"bounces", "1", "impacts without sustained contact, summed over returns"},
     {"loss", "1", "alpha^2 - f^2 taken by impacts, summed over returns"}};
 
-inline constexpr outcome outcomes[] = {outcome::ok, outcome::stuck, outcome::rest,
+inline constexpr outcome outcomes[] = {outcome::ok, outcome::stuck, outcome::rest, outcome::escaped,
                                        outcome::unresolved_event};
+
+inline bool is_nonlinear(const double* parameter) {
+    return parameter[quadratic_stiffness] != 0.0 || parameter[cubic_stiffness] != 0.0 ||
+           parameter[gravity_gradient] != 0.0;
+}
+
+/// The compiled variant with nonlinear spring and gravity; it has every other term too.
+inline constexpr int nonlinear_variant = 4;
 
 /// Which of the compiled variants serves a scene.
 inline int variant_for(const variant_query& scene) {
+    if (is_nonlinear(scene.lowest) || is_nonlinear(scene.highest)) return nonlinear_variant;
     if (scene.highest[damping_ratio] > 0.0) return 3;
     if (scene.highest[restitution] > 0.0) return 2;
     return scene.wants_time ? 1 : 0;
@@ -95,9 +117,25 @@ HOPSCOTCH_DEVICE inline void clear_lane(hopper_lane<Real>& lane, const Real* par
     lane.time = lane.events = lane.bounces = lane.total_loss = zero;
 }
 
+/// The same for the variant with nonlinear terms; its tolerance is set already.
 template <class Real>
-HOPSCOTCH_DEVICE inline mask_of<Real> is_finite(const Real& x) {
-    return x - x == Real(0.0);
+HOPSCOTCH_DEVICE inline void take_parameters(nonlinear_lane<Real>& lane, const Real* parameter) {
+    hopper_lane<Real> linear;
+    clear_lane(linear, parameter);
+    const Real zero(0.0);
+    lane.mu = linear.mu;
+    lane.kappa = linear.kappa;
+    lane.inverse_total = linear.inverse_total;
+    lane.restitution = linear.restitution;
+    lane.damping = linear.damping;
+    lane.increment = linear.increment;
+    lane.spring = {parameter[quadratic_stiffness], parameter[cubic_stiffness]};
+    lane.gradient = parameter[gravity_gradient];
+    lane.lift_extension = extension_at(lane.spring, Real(1.0));
+    lane.alpha = lane.s = lane.rate = lane.gap = lane.gap_rate = lane.pull = zero;
+    lane.in_contact = lane.gap_zeros = lane.fresh = lane.contact_time = zero;
+    lane.energy = lane.loss = lane.from_flight = zero;
+    lane.time = lane.events = lane.bounces = lane.total_loss = zero;
 }
 
 /// Starts at lift-off from sustained contact.
@@ -168,13 +206,29 @@ HOPSCOTCH_DEVICE inline progress<Real> begin_anywhere(hopper_lane<Real>& lane,
 /// The model, in the coordinates of one of the two machines.
 template <class Coordinates>
 struct model {
-    static constexpr int n_variants = 4;
+    static constexpr int n_variants = 5;
     static constexpr int n_parameter_fields = passive::n_parameter_fields;
     static int variant(const variant_query& scene) { return variant_for(scene); }
-    static constexpr std::string_view refusal(const double*, const int*) { return {}; }
+    static std::string_view refusal(const double* parameter, const int*) {
+        if (!Coordinates::has_gravity_gradient && parameter[gravity_gradient] != 0.0) {
+            return "height-dependent gravity breaks the equivalence that defines the juggler by "
+                   "the hopper's equations";
+        }
+        return refusal_of_spring(parameter[quadratic_stiffness], parameter[cubic_stiffness],
+                                 parameter[gravity_gradient]);
+    }
 
     template <class Real>
     using lane = hopper_lane<Real>;
+    template <int Variant, class Real>
+    using variant_lane =
+        std::conditional_t<Variant == nonlinear_variant, nonlinear_lane<Real>, hopper_lane<Real>>;
+
+    template <int Variant, class Real>
+    requires(Variant == nonlinear_variant) HOPSCOTCH_DEVICE
+        static void set_tolerance(nonlinear_lane<Real>& lane, double tolerance) {
+        lane.tolerance = Real(taylor::tolerance_for<Real>(tolerance));
+    }
 
     template <int Variant, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> begin(lane<Real>& lane, int section, const Real* columns,
@@ -196,19 +250,48 @@ struct model {
     }
 
     template <int Variant, class Real, class Watch>
+    HOPSCOTCH_DEVICE static progress<Real> begin(nonlinear_lane<Real>& lane, int section,
+                                                 const Real* columns, const Real* parameter,
+                                                 const int*, Watch& watch) {
+        take_parameters(lane, parameter);
+        nonlinear_reporter<Coordinates, Watch> report{watch};
+        const Real code =
+            section == 0
+                ? begin_at_lift_off(lane, columns[0])
+                : begin_anywhere(lane,
+                                 Coordinates::template read<Real>(columns, parameter[mass_ratio]),
+                                 report);
+        const mask_of<Real> has_numbers = is_finite(lane.mu) & is_finite(lane.restitution) &
+                                          is_finite(lane.damping) & is_finite(lane.increment) &
+                                          is_finite(lane.gradient) & is_finite(lane.lift_extension);
+        const mask_of<Real> none = has_numbers & !has_numbers;
+        return {none, select(has_numbers, code, code_of<Real>(outcome::not_finite))};
+    }
+
+    template <int Variant, class Real, class Watch>
     HOPSCOTCH_DEVICE static progress<Real> step(lane<Real>& lane, mask_of<Real> active,
                                                 Watch& watch) {
         reporter<Coordinates, Watch> report{watch};
         return fly_and_land<typename variant_type<Variant>::type>(lane, active, report);
+    }
+    template <int Variant, class Real, class Watch>
+    HOPSCOTCH_DEVICE static progress<Real> step(nonlinear_lane<Real>& lane, mask_of<Real> active,
+                                                Watch& watch) {
+        nonlinear_reporter<Coordinates, Watch> report{watch};
+        return step_nonlinear(lane, active, report);
     }
 
     template <class Real>
     HOPSCOTCH_DEVICE static void read_state(const lane<Real>& lane, int, Real* columns) {
         columns[0] = lift_off_speed(lane);
     }
-
     template <class Real>
-    HOPSCOTCH_DEVICE static void read_extras(const lane<Real>& lane, Real* extra) {
+    HOPSCOTCH_DEVICE static void read_state(const nonlinear_lane<Real>& lane, int, Real* columns) {
+        columns[0] = lane.alpha;
+    }
+
+    template <template <class> class Lane, class Real>
+    HOPSCOTCH_DEVICE static void read_extras(const Lane<Real>& lane, Real* extra) {
         extra[0] = lane.bounces;
         extra[1] = lane.total_loss;
     }
@@ -226,12 +309,24 @@ struct model {
         return select(below_first, one, lane.trapped);
     }
 
+    /// With nonlinear terms the lossless points move, and T_k is not known; but a damper takes
+    /// energy from every flight, and without lossless flights every orbit dies.
+    template <int Variant, class Real>
+    HOPSCOTCH_DEVICE static Real certificate(const nonlinear_lane<Real>& lane) {
+        const Real zero(0.0);
+        const mask_of<Real> dies =
+            (lane.damping > zero) & (lane.increment <= zero) & !(lane.from_flight > zero);
+        return select(dies, Real(1.0), zero);
+    }
+
     /// With plastic impacts and no damping T_k decides; with damping every orbit dies; elastic
     /// impacts and added energy need traps that are found numerically (analysis/labels).
     static bool certificate_covers(const variant_query& scene) {
         const bool adds_energy = scene.highest[speed_increment] > 0.0;
         const bool all_damped = scene.lowest[damping_ratio] > 0.0;
-        const bool plain = scene.highest[restitution] == 0.0 && scene.highest[damping_ratio] == 0.0;
+        const bool plain = scene.highest[restitution] == 0.0 &&
+                           scene.highest[damping_ratio] == 0.0 &&
+                           variant_for(scene) != nonlinear_variant;
         return !adds_energy && (all_damped || plain);
     }
 
@@ -241,7 +336,7 @@ struct model {
             return true;
         }
         map_branch branch{};
-        if (!model::branch(label - 1, nullptr, branch)) return false;
+        if (!linear_branch(label - 1, branch)) return false;
         text = {.kind = "fixed point",
                 .index = label - 1,
                 .has_point = true,
@@ -251,8 +346,15 @@ struct model {
         return true;
     }
 
-    /// Branch k of the return map: [alpha*_k, (k + 1) pi].
-    static bool branch(int index, const double*, map_branch& result) {
+    /// Branch k of the return map at a parameter point: from the lossless speed alpha_k to the
+    /// first bounce; [alpha*_k, (k + 1) pi] where spring and gravity are linear.
+    static bool branch(int index, const double* parameter, map_branch& result) {
+        if (!is_nonlinear(parameter)) return linear_branch(index, result);
+        nonlinear_lane<double> lane;
+        take_parameters(lane, parameter);
+        return nonlinear_branch(lane, index, result);
+    }
+    static bool linear_branch(int index, map_branch& result) {
         if (index < 0 || index > 100000) return false;
         const lossless<double> point = lossless_point(static_cast<double>(index));
         result = {point.high, (index + 1) * pi<double>()};
