@@ -5,8 +5,10 @@
 #include "analysis/attractors/settle.hpp"
 #include "analysis/periodic/return_equation.hpp"
 #include "analysis/traps/checked_trap.hpp"
+#include "analysis/traps/proved_trap.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -140,14 +142,30 @@ private:
             scale(static_cast<Eigen::Index>(i)) = scale_[std::size_t(free_[i])];
         }
         for (std::size_t i = 0; i < orbit.points.size(); i += n_) {
-            const trap_site site{state(orbit.points).subspan(i, n_), orbit.period, free_, scale};
-            if (const auto trap = checked_trap(map_, site, limits_.is_quick))
-                found.traps.push_back(*trap);
+            add_trap(found, {state(orbit.points).subspan(i, n_), orbit.period, free_, scale});
         }
-        found.is_proved = false;
         found.is_late = is_late_;
         result_.attractors.push_back(std::move(found));
         return true;
+    }
+
+    /// The proved trap of one point of a cycle, or the checked one where there is no proof.
+    void add_trap(found_attractor& found, const trap_site& site) const {
+        if (!limits_.is_quick) {
+            std::array<bool, most_columns> is_fixed{};
+            for (std::size_t c = 0; c < n_; ++c) {
+                is_fixed[c] =
+                    std::find(free_.begin(), free_.end(), static_cast<int>(c)) == free_.end();
+            }
+            const auto proved = largest_trap({.map = &map_,
+                                              .period = site.period,
+                                              .point = site.centre,
+                                              .is_fixed = std::span(is_fixed.data(), n_)});
+            if (proved) return found.traps.push_back(proved->trap);
+        }
+        found.is_proved = false;
+        if (const auto trap = checked_trap(map_, site, limits_.is_quick))
+            found.traps.push_back(*trap);
     }
 
     /// Fixed points and cycles of period 2 next to the starts and their first images, stable or

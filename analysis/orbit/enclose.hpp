@@ -69,7 +69,7 @@ enclosed_end run_enclosed(const enclosed_query& query, std::span<enclosed_dual<M
     for (std::size_t i = 0; i < query.parameters.size(); ++i) {
         parameters[i] = number(query.parameters[i]);
     }
-    typename Model::template lane<number> lane{};
+    lane_of<Model, Variant, number> lane{};
     unwatched watch;
     progress<number> done = Model::template begin<Variant>(lane, query.section, columns.data(),
                                                            parameters.data(), query.options, watch);

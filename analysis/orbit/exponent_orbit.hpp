@@ -14,7 +14,7 @@ namespace hopscotch::inline HOPSCOTCH_TARGET {
 /// \tparam N  directions carried; those beyond the section's columns vanish
 template <class Model, int Variant, int N>
 class exponent_orbit {
-    using space = tangent_space<Model, double_double<double>, N>;
+    using space = tangent_space<Model, Variant, double_double<double>, N>;
     using number = typename space::number;
 
 public:
@@ -61,6 +61,7 @@ private:
 
     progress<number> place(typename space::lane& at, int section,
                            const number (&columns)[most_columns]) const {
+        take_tolerance<Model, Variant, number>(at, row_.tolerance);
         unwatched watch;
         return Model::template begin<Variant>(at, section, columns, parameters_, row_.options,
                                               watch);

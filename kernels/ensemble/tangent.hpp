@@ -21,10 +21,10 @@ constexpr int n_directions() {
     return static_cast<int>(most);
 }
 
-template <class Model, class Real>
+template <class Model, int Variant, class Real>
 struct tangent_trajectory {
     static constexpr int n = n_directions<Model>();
-    typename Model::template lane<dual<Real, n>> motion;
+    lane_of<Model, Variant, dual<Real, n>> motion;
     Real parameters[Model::info.parameters.size()];
     exponent_estimate<Real, n> estimate;
     Real returns;  // completed
@@ -34,12 +34,12 @@ struct tangent_trajectory {
 
 template <class Model, int Variant, class Real>
 class tangent_ensemble : public refilled_lanes<tangent_ensemble<Model, Variant, Real>,
-                                               tangent_trajectory<Model, Real>, Real> {
-    using lanes = refilled_lanes<tangent_ensemble, tangent_trajectory<Model, Real>, Real>;
-    using state = tangent_trajectory<Model, Real>;
+                                               tangent_trajectory<Model, Variant, Real>, Real> {
+    using lanes = refilled_lanes<tangent_ensemble, tangent_trajectory<Model, Variant, Real>, Real>;
+    using state = tangent_trajectory<Model, Variant, Real>;
     static constexpr int n = state::n;
     using number = dual<Real, n>;
-    using space = tangent_space<Model, Real, n>;
+    using space = tangent_space<Model, Variant, Real, n>;
 
 public:
     using lanes::lanes;
@@ -73,9 +73,10 @@ private:
     }
 
     /// Two callers, one copy of the model's code.
-    [[gnu::noinline]] HOPSCOTCH_DEVICE static progress<number> place(
+    [[gnu::noinline]] HOPSCOTCH_DEVICE progress<number> place(
         typename space::lane& at, int section, const number (&columns)[most_columns],
-        const Real (&parameters)[Model::info.parameters.size()], const int* options) {
+        const Real (&parameters)[Model::info.parameters.size()], const int* options) const {
+        take_tolerance<Model, Variant, number>(at, request_.tolerance);
         number constants[most_parameters];
         for (std::size_t p = 0; p < std::size(parameters); ++p)
             constants[p] = number(parameters[p]);

@@ -32,11 +32,11 @@ HOPSCOTCH_DEVICE inline split_size<Real> split(const Real& size) {
 /// The tangent space of a model's orbit.
 ///
 /// \tparam T  arithmetic of values and slopes; sizes and angles are kept in double (or packs of it)
-template <class Model, class T, int N>
+template <class Model, int Variant, class T, int N>
 class tangent_space {
 public:
     using number = dual<T, N>;
-    using lane = typename Model::template lane<number>;
+    using lane = lane_of<Model, Variant, number>;
     using Real = std::conditional_t<binary64_lane<T>, T, double>;
 
     /// Where directions are no longer resolved against those before them: cancellation to 2^-40.

@@ -49,24 +49,31 @@ HOPSCOTCH_DEVICE inline value_and_slope<Real> value_slope(const series<Real>& a,
 /// Next to a zero of third order the curvature's bound gives ever shorter steps. There the bound on
 /// the third derivative, |g'''| <= B, is the better one: nothing happens while the cubic
 /// g + g' d + g'' d^2 / 2 - B d^3 / 6 stays above zero (above the value's noise, lest a touch be
-/// passed).
+/// passed). The bound holds up to a quarter beyond t: over a long step it would be too weak.
 ///
 /// \param safe  a step known to pass no zero
 /// \return      a longer one, where the cubic allows it
 template <class Real>
 HOPSCOTCH_DEVICE inline Real longer_step(const series<Real>& guard, const Real& t,
-                                         const Real& third, const Real& noise, const Real& safe) {
+                                         const Real& horizon, const Real& noise, const Real& safe) {
     const Real zero(0.0);
     const Real half(0.5);
     Real value = guard.c[order<Real>];
     Real slope(0.0);
     Real bend(0.0);  // half the second derivative
+    const Real reach = smaller(horizon - t, t * Real(0.25));
+    const Real end = t + reach;
+    Real third(0.0);
+    for (int n = order<Real>; n >= 3; --n) {
+        const double factor = static_cast<double>(n) * (n - 1) * (n - 2);
+        third = fma(third, end, abs(guard.c[n]) * Real(factor));
+    }
     for (int n = order<Real> - 1; n >= 0; --n) {
         bend = fma(bend, t, slope);
         slope = fma(slope, t, value);
         value = fma(value, t, guard.c[n]);
     }
-    const Real steep = third * Real(1.0 / 6.0);
+    const Real steep = third / Real(6.0);
     const auto cubic = [&](const Real& d) {
         return fma(d, fma(d, fma(-d, steep, bend), slope), value);
     };
@@ -76,7 +83,7 @@ HOPSCOTCH_DEVICE inline Real longer_step(const series<Real>& guard, const Real& 
     const Real bottom = -slope / (bend + sqrt(select(dips, discriminant, zero)));
     const mask_of<Real> touches = dips & !(cubic(bottom) > noise);
     const auto is_safe = [&](const Real& d) {
-        return (cubic(d) > noise) & !(touches & (bottom < d));
+        return (d <= reach) & (cubic(d) > noise) & !(touches & (bottom < d));
     };
     Real step = safe;
     constexpr int most_doublings = lane_traits<Real>::rounding > 0x1p-60 ? 24 : 100;
@@ -102,7 +109,7 @@ HOPSCOTCH_DEVICE inline Real longer_step(const series<Real>& guard, const Real& 
 /// \error  touching to rounding counts. Where guard >= 0, guard' and |guard''| <= L, nothing
 /// happens before
 ///         (g' + sqrt(g'^2 + 2 L g)) / L; after a few such steps, see `longer_step`. A lane not
-///         decided after 200 steps (400 of wide arithmetic) is `unresolved`; a guard that is not
+///         decided after 200 steps (1000 of wide arithmetic) is `unresolved`; a guard that is not
 ///         finite is not found.
 template <class Real>
 HOPSCOTCH_DEVICE inline guard_search<Real> first_zero(const series<Real>& guard,
@@ -128,9 +135,8 @@ HOPSCOTCH_DEVICE inline guard_search<Real> first_zero(const series<Real>& guard,
     active = active & (g.c[0] > zero);
     if (any(active)) {
         const plain settled(lane_traits<Real>::rounding * 4.0);
-        constexpr int most_steps = lane_traits<Real>::rounding > 0x1p-60 ? 200 : 400;
+        constexpr int most_steps = lane_traits<Real>::rounding > 0x1p-60 ? 200 : 1000;
         constexpr int short_search = 12;  // simple zeros take 3 to 8 steps
-        plain third(0.0);
         for (int i = 0; i < most_steps && any(active); ++i) {
             const value_and_slope<plain> at = value_slope(g, t);
             const plain reach = larger(at.value, zero);
@@ -138,15 +144,9 @@ HOPSCOTCH_DEVICE inline guard_search<Real> first_zero(const series<Real>& guard,
             // the smaller root of value + slope d - curvature d^2 / 2, without cancellation
             plain step = select(at.slope > zero, (at.slope + root) / curvature,
                                 plain(2.0) * reach / (root - at.slope));
-            if (i == short_search) {
-                for (int n = order<Real>; n >= 3; --n) {
-                    const double factor = static_cast<double>(n) * (n - 1) * (n - 2);
-                    third = fma(third, horizon, abs(g.c[n]) * plain(factor));
-                }
-            }
             plain noise = fma(noise_rate, t, noise_now);  // of the value at t
             if (i >= short_search) {
-                step = longer_step(g, t, third, fma(noise_rate, horizon, noise_now), step);
+                step = longer_step(g, t, horizon, fma(noise_rate, horizon, noise_now), step);
                 noise = noise + noise;
             }
             const plain next = t + step;

@@ -310,7 +310,6 @@ TEST(proved_interval, what_its_slopes_say_is_noted) {
     EXPECT_TRUE(proved->is_monotone);
     EXPECT_TRUE(proved->contracts);
     EXPECT_FALSE(proved->only_falls);  // it rises below ln 2
-    // the page's section at the bottom turns the order round; E' = alpha E e^-E < E above ln alpha
     const auto above = prove_interval_trap(map, std::log(2.0) + 1e-3, 0.95);
     EXPECT_FALSE(above);  // f(ln 2 + d) = ln 2 + 0.307 d lies below it: orbits leave downward
 }
