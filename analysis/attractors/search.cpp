@@ -151,16 +151,22 @@ private:
 
     /// The proved trap of one point of a cycle, or the checked one where there is no proof.
     void add_trap(found_attractor& found, const trap_site& site) const {
-        if (!limits_.is_quick) {
+        constexpr int longest_proved = 16;
+        if (!limits_.is_quick && site.period <= longest_proved) {
             std::array<bool, most_columns> is_fixed{};
             for (std::size_t c = 0; c < n_; ++c) {
                 is_fixed[c] =
                     std::find(free_.begin(), free_.end(), static_cast<int>(c)) == free_.end();
             }
+            // a proof's cost grows with the period, and so does the number of proofs
+            const trap_search effort = site.period <= 2
+                                           ? trap_search{}
+                                           : trap_search{.most_pieces = 4, .most_reshapings = 0};
             const auto proved = largest_trap({.map = &map_,
                                               .period = site.period,
                                               .point = site.centre,
-                                              .is_fixed = std::span(is_fixed.data(), n_)});
+                                              .is_fixed = std::span(is_fixed.data(), n_)},
+                                             nullptr, effort);
             if (proved) return found.traps.push_back(proved->trap);
         }
         found.is_proved = false;

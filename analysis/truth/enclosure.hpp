@@ -240,8 +240,9 @@ bracket<enclosure> first_fall_bracket(enclosure (*value_at)(const void* function
                                                             const enclosure& x),
                                       const void* function, const enclosure& to);
 
-template <class Function>
-bracket<enclosure> bracket_of_first_fall(const Function& falling, const enclosure& to,
+/// (a template in the time, too: no other arithmetic is to convert to this one)
+template <class Function, std::same_as<enclosure> Time>
+bracket<enclosure> bracket_of_first_fall(const Function& falling, const Time& to,
                                          const enclosure_mask& /*wanted*/) {
     const auto value_at = [](const void* function, const enclosure& x) -> enclosure {
         return (*static_cast<const Function*>(function))(x).value;
