@@ -169,8 +169,8 @@ TEST(scene_errors, a_mistake_in_question_accuracy_or_output_is_named) {
         {"kind", "[question]\nkind = \"basin\"\n",
          "s.toml:11: question.kind = \"basin\" (no such question); basins?"},
         {"key of the kind", "[question]\nkind = \"basins\"\ntransient = 3\n",
-         "s.toml:12: question.transient = 3 (unknown key of the question basins); one of kind, "
-         "returns?"},
+         "s.toml:12: question.transient = 3 (unknown key of the question basins); one of samples, "
+         "longest_period, kind, returns?"},
         {"returns", "[question]\nkind = \"basins\"\nreturns = 0\n",
          "s.toml:12: question.returns = 0 (must be at least 1)"},
         {"precision", "[question]\nkind = \"basins\"\n[accuracy]\nprecision = \"duble\"\n",

@@ -29,7 +29,7 @@ TEST_P(store_python, xarray_h5py_and_the_loader_open_a_map) {
     const test::scratch_folder folder;
     test::write_sample_map(folder / "map.h5", test::sample_layout(GetParam(), {32, 16, 4}));
     const std::filesystem::path scripts =
-        std::filesystem::path(__FILE__).parent_path().parent_path() / "python";
+        std::filesystem::path(HOPSCOTCH_SOURCE) / "tests" / "python";
     const std::string command = "HOPSCOTCH_TEST_MAP='" + (folder / "map.h5").string() +
                                 "' MPLBACKEND=Agg PYTHONDONTWRITEBYTECODE=1 " + python +
                                 " -W ignore -m unittest discover -s '" + scripts.string() +
