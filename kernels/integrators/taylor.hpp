@@ -23,7 +23,7 @@
 // springs), raibert_pneumatic and relief_valve, in units of the tolerance: median 0.04 to 0.7 and
 // worst 1 to 13 for 1e-12 ... 1e-6. Hence the user's default of 1e-10: a return is wrong by 1e-9 at
 // most, an orbit is decided wrongly only within 1e-8 of a boundary
-// (tests/models/test_tolerance.cpp), for 28 to 34 % fewer steps than the arithmetic's own
+// (tests/models/test_tolerance.cpp), for 30 to 34 % fewer steps than the arithmetic's own
 // tolerance. Beyond 1e-2 a step would leave the radius of convergence.
 #pragma once
 

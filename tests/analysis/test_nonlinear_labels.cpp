@@ -1,6 +1,7 @@
 // Labels of hoppers on nonlinear springs: the persistent hops of every parameter point and the
 // intervals that they attract. Source: models/passive_hopper.md sections 4 and 6.
 #include "analysis/labels/plan.hpp"
+#include "analysis/labels/return_map_samples.hpp"
 #include "host/scene/scene.hpp"
 
 #include <gtest/gtest.h>
@@ -50,9 +51,13 @@ TEST(nonlinear_labels, traps_begin_at_the_hop_of_their_own_parameter_point) {
                 return t.lowest == branch.base;
             });
             ASSERT_NE(trap, first + n_traps) << "no trap at hop " << k << " of point " << p;
-            // M = 0.1 traps whole branches of the linear hopper (page, section 4): most of them
-            // here
-            EXPECT_GT(trap->highest, branch.base + 0.5 * (branch.end - branch.base));
+            // what starts in the trap's interior stays above the hop; beyond its end it falls below
+            const return_map_samples map(scene, points[p]);
+            const double within = trap->lowest + 0.999 * (trap->highest - trap->lowest);
+            EXPECT_GE(map.at(within), branch.base);
+            if (trap->highest < branch.end * (1.0 - 1e-9)) {
+                EXPECT_FALSE(map.at(trap->highest * (1.0 + 1e-6)) >= branch.base);
+            }
         }
     }
 }

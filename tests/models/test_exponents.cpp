@@ -260,6 +260,7 @@ double log_determinant(const scene& scene, std::uint64_t cell, std::uint32_t tra
     query.parameters = start.parameters.data();
     query.returns = transient;
     query.max_steps = static_cast<double>(scene.accuracy.max_events);
+    query.tolerance = scene.accuracy.tolerance;
     const return_jet settled = scene.model->orbits().jet(query);
     if (settled.end != outcome::ok) return none;
     query.section = scene.start_section().returns_to;
