@@ -29,7 +29,7 @@ public:
                               .period = is_chaotic ? 0 : period};
             row.trap = is_chaotic ? "boxes over sampled states, positive exponent"
                                   : "ellipsoids, contraction checked by exact derivatives";
-            row.colour = colour_of(period + 1);
+            row.colour = is_chaotic ? chaos_colour : colour_of(period + 1);
             plan.attractors.push_back(std::move(row));
         }
     }

@@ -9,15 +9,19 @@ namespace {
 
 constexpr std::uint64_t outside = ~std::uint64_t{0};
 
-std::uint64_t boxes_for(int n_columns) {
-    if (n_columns == 1) return 1024;
-    return n_columns == 2 ? 128 : 32;
+/// As many boxes along every column as leave several samples to each, were the set to fill its
+/// hull.
+std::uint64_t boxes_for(std::size_t n_samples, int n_columns) {
+    const double most = n_columns == 1 ? 1024.0 : n_columns == 2 ? 128.0 : 32.0;
+    const double per_axis = std::pow(static_cast<double>(n_samples), 1.0 / n_columns);
+    return static_cast<std::uint64_t>(std::clamp(0.5 * per_axis, 4.0, most));
 }
 
 }  // namespace
 
 state_cover::state_cover(std::span<const double> samples, int n_columns)
-    : n_columns_(n_columns), boxes_along_(boxes_for(n_columns)) {
+    : n_columns_(n_columns),
+      boxes_along_(boxes_for(samples.size() / static_cast<std::size_t>(n_columns), n_columns)) {
     const auto n = static_cast<std::size_t>(n_columns);
     lowest_.assign(samples.begin(), samples.begin() + n_columns);
     highest_ = lowest_;
