@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 namespace hopscotch {
@@ -16,19 +15,6 @@ double shifted_determinant(const Eigen::MatrixXd& derivative, double shift) {
 }
 
 }  // namespace
-
-std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivative) {
-    std::vector<std::complex<double>> multipliers;
-    if (derivative.size() == 0) return multipliers;
-    const Eigen::VectorXcd values =
-        Eigen::EigenSolver<Eigen::MatrixXd>(derivative, false).eigenvalues();
-    multipliers.assign(values.begin(), values.end());
-    std::sort(multipliers.begin(), multipliers.end(), [](const auto& a, const auto& b) {
-        if (std::abs(a) != std::abs(b)) return std::abs(a) > std::abs(b);
-        return a.imag() > b.imag();
-    });
-    return multipliers;
-}
 
 double flip_test(const Eigen::MatrixXd& derivative) { return shifted_determinant(derivative, 1.0); }
 double fold_test(const Eigen::MatrixXd& derivative) {

@@ -4,15 +4,13 @@
 #include "analysis/continuation/branch.hpp"
 #include "analysis/continuation/branch_equation.hpp"
 #include "analysis/continuation/corrector.hpp"
+#include "analysis/periodic/multipliers.hpp"
 
 #include <array>
 #include <functional>
 #include <optional>
 
 namespace hopscotch {
-
-/// Multipliers of DP^period, largest modulus first.
-std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivative);
 
 /// det(D + 1): zero where a multiplier is -1.
 double flip_test(const Eigen::MatrixXd& derivative);

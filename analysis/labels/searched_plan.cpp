@@ -47,7 +47,7 @@ std::map<std::size_t, std::vector<double>> starts_by_point(const scene& scene,
     return starts;
 }
 
-/// The classes of a point's attractors; those from `n_early` on are late.
+/// The classes of a point's attractors, in their order.
 std::vector<attractor_class> classes_at(const attractor_search& found) {
     std::vector<attractor_class> classes;
     std::map<std::tuple<bool, bool, int>, int> seen;

@@ -1,13 +1,13 @@
 // Damped Newton's method on P^period(x) = x, minimal period and multipliers.
 #include "analysis/periodic/periodic_orbit.hpp"
 
+#include "analysis/periodic/multipliers.hpp"
 #include "analysis/periodic/return_equation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -108,19 +108,6 @@ private:
     }
 };
 
-std::vector<std::complex<double>> eigenvalues_of(const Eigen::MatrixXd& derivative) {
-    std::vector<std::complex<double>> multipliers;
-    if (derivative.size() == 0) return multipliers;
-    const Eigen::VectorXcd values =
-        Eigen::EigenSolver<Eigen::MatrixXd>(derivative, false).eigenvalues();
-    multipliers.assign(values.begin(), values.end());
-    std::sort(multipliers.begin(), multipliers.end(), [](const auto& a, const auto& b) {
-        if (std::abs(a) != std::abs(b)) return std::abs(a) > std::abs(b);
-        return a.imag() > b.imag();
-    });
-    return multipliers;
-}
-
 /// Whether the orbit already closes after some proper divisor of its period.
 bool has_smaller_period(const map_point& map, const periodic_orbit& orbit,
                         std::span<const double> scale, double uncertainty) {
@@ -151,7 +138,7 @@ std::vector<std::complex<double>> multipliers_at(const map_point& map, std::span
                                                  int period, std::span<const int> columns) {
     const return_value value = evaluate_return(map, x, period, columns);
     if (!value.is_ok()) return {};
-    return eigenvalues_of(value.derivative);
+    return multipliers_of(value.derivative);
 }
 
 std::optional<periodic_orbit> refine_periodic_orbit(const map_point& map,
@@ -169,7 +156,7 @@ std::optional<periodic_orbit> refine_periodic_orbit(const map_point& map,
     wrap_phases(map, x);
     periodic_orbit orbit{.period = period, .n_columns = map.n_columns()};
     orbit.residual = search.norm(value);
-    orbit.multipliers = eigenvalues_of(value.derivative);
+    orbit.multipliers = multipliers_of(value.derivative);
     orbit.points = x;
     for (int i = 1; i < period; ++i) {
         const return_jet next = map.jet(x.data(), static_cast<std::uint32_t>(i));
