@@ -29,6 +29,8 @@ claim_equal "one thread and other tiles give the same map" "$hash" "$(hash_of ti
 
 claim_exit "sums are verified and cells recomputed" 0 hopscotch verify map.h5 --cells 10
 claim_contains "and they hold" "wrong             0" out.txt
+claim_contains "with the errors of their numbers" "error of returns" out.txt
+claim_contains "the worst audited cell can be replayed" "hopscotch replay map.h5 --cell" map.json
 claim_exit "one cell is replayed" 0 hopscotch replay map.h5 --cell 60,45
 claim_contains "and its label holds" "the stored label holds" out.txt
 claim_exit "a cell outside the map is usage" 2 hopscotch replay map.h5 --cell 120,0

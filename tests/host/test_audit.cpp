@@ -1,5 +1,7 @@
-// The audit: which cells it looks at, when 50 digits decide, and how sure it is.
+// The audit: which cells it looks at, when 50 digits decide, how large errors are, and how sure it
+// is.
 #include "host/run/audit.hpp"
+#include "host/run/confidence.hpp"
 #include "host/run/run_map.hpp"
 #include "host/run/truth_orbits.hpp"
 #include "host/scene/grid.hpp"
@@ -7,6 +9,9 @@
 #include "tests/host/fake_model.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include <unistd.h>
 
@@ -91,14 +96,98 @@ TEST_F(audit_of_a_map, counts_a_cell_as_wrong_only_where_fifty_digits_disagree_t
     EXPECT_EQ(attributes.back().second, "hopscotch replay m.h5 --cell 45,0");
 }
 
-TEST(confidence, has_the_published_width_at_the_ends_and_in_the_middle) {
-    // Wilson's interval for 0 of 10 and 5 of 10 at 95 %: (0, 0.2775), (0.2366, 0.7634)
+TEST_F(audit_of_a_map, draws_the_cells_that_the_fingerprint_and_the_seed_decide) {
+    const std::vector<std::uint64_t> cells = audited_cells(scene_, 100, 0);
+    EXPECT_EQ(cells, audited_cells(scene_, 100, 0));
+    EXPECT_NE(cells, audited_cells(scene_, 100, 1));
+    const scene other =
+        parse_scene(text, "audit.toml", std::vector<std::string>{"start.speed=4"}, fake::models());
+    EXPECT_NE(cells, audited_cells(other, 100, 0));
+    const scene tiled = parse_scene(
+        text, "audit.toml", std::vector<std::string>{"output.tile=[5, 20]"}, fake::models());
+    EXPECT_EQ(cells, audited_cells(tiled, 100, 0));  // tiles leave the numbers as they are
+}
+
+TEST_F(audit_of_a_map, covers_the_true_share_as_often_as_it_says) {
+    fake::dd_disagrees_above = fake::mp50_disagrees_above = 9.0;  // a tenth of the cells
+    int n_covering = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const audit_report report = audit(
+            scene_, plan_of(scene_), [&](std::uint64_t tile) { return map_->tile(tile); }, 60,
+            seed);
+        n_covering += report.lowest <= 0.1 && 0.1 <= report.highest ? 1 : 0;
+    }
+    EXPECT_GE(n_covering, 190);  // 95 % of 200
+    EXPECT_LT(n_covering, 200);  // and not by intervals that always cover
+}
+
+TEST_F(audit_of_a_map, gives_the_errors_of_numeric_layers_and_their_worst_cell) {
+    // the kernel stores returns / 4 as time, the single orbits say 1/4: errors in closed form
+    const scene timed = parse_scene(
+        text, "audit.toml", std::vector<std::string>{"output.layers=[\"returns\", \"time\"]"},
+        fake::models());
+    run_choices choices;
+    choices.file = file_;
+    choices.is_quiet = true;
+    choices.existing = if_exists::replace;
+    run_map(timed, choices, {plan_of, {}});
+    const map_reader map(file_);
+    const audit_report report = audit(
+        timed, plan_of(timed), [&](std::uint64_t tile) { return map.tile(tile); }, 1000);
+    const std::vector<double> returns = map.read_all("returns");
+    std::vector<double> errors;
+    for (const double n : returns) errors.push_back(std::abs(0.25 * n - 0.25));
+    const auto largest = std::max_element(errors.begin(), errors.end());
+    ASSERT_EQ(report.errors.size(), 2u);
+    EXPECT_EQ(report.errors[0].layer, "returns");
+    EXPECT_EQ(report.errors[0].largest, 0.0);
+    EXPECT_EQ(report.errors[1].layer, "time");
+    EXPECT_EQ(report.errors[1].unit, "s");
+    EXPECT_EQ(report.errors[1].largest, *largest);
+    const auto worst = static_cast<std::uint64_t>(largest - errors.begin());
+    EXPECT_EQ(report.errors[1].worst, worst);
+    EXPECT_EQ(report.worst, worst);
+    std::nth_element(errors.begin(), errors.begin() + 500, errors.end());
+    EXPECT_EQ(report.errors[1].median, errors[500]);
+    EXPECT_EQ(attributes_of(timed, report, "m.h5").back().second,
+              "hopscotch replay m.h5 --cell " + cell_text(timed, worst));
+}
+
+TEST(confidence, has_the_published_exact_limits) {
+    // Clopper and Pearson (1934), as tabulated for n = 10 in Hald's Statistical Tables (1952)
     EXPECT_EQ(confidence_of(0, 10).first, 0.0);
-    EXPECT_NEAR(confidence_of(0, 10).second, 0.2775, 5e-5);
-    EXPECT_NEAR(confidence_of(5, 10).first, 0.2366, 5e-5);
-    EXPECT_NEAR(confidence_of(5, 10).second, 0.7634, 5e-5);
+    EXPECT_NEAR(confidence_of(0, 10).second, 0.3085, 5e-5);
+    EXPECT_NEAR(confidence_of(1, 10).first, 0.0025, 5e-5);
+    EXPECT_NEAR(confidence_of(1, 10).second, 0.4450, 5e-5);
+    EXPECT_NEAR(confidence_of(5, 10).first, 0.1871, 5e-5);
+    EXPECT_NEAR(confidence_of(5, 10).second, 0.8129, 5e-5);
     EXPECT_EQ(confidence_of(10, 10).second, 1.0);
     EXPECT_EQ(confidence_of(0, 0), (std::pair{0.0, 1.0}));
+}
+
+TEST(confidence, has_the_closed_form_of_no_hits_at_any_size) {
+    for (const double n : {1.0, 20.0, 1000.0, 1e6, 1e12}) {
+        const double closed = -std::expm1(std::log(0.025) / n);  // 1 - 0.025^(1/n)
+        const double found = confidence_of(0, static_cast<std::uint64_t>(n)).second;
+        EXPECT_NEAR(found / closed, 1.0, 1e-10) << n;
+    }
+}
+
+TEST(confidence, puts_a_fortieth_of_the_binomial_into_either_tail) {
+    constexpr int n = 25;
+    for (int hits = 1; hits < n; ++hits) {
+        const auto [low, high] = confidence_of(static_cast<std::uint64_t>(hits), n);
+        double at_least = 0.0;  // P(X >= hits) at the lowest share
+        double at_most = 0.0;   // P(X <= hits) at the highest
+        for (int k = 0; k <= n; ++k) {
+            const double ways =
+                std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0));
+            if (k >= hits) at_least += ways * std::pow(low, k) * std::pow(1.0 - low, n - k);
+            if (k <= hits) at_most += ways * std::pow(high, k) * std::pow(1.0 - high, n - k);
+        }
+        EXPECT_NEAR(at_least, 0.025, 1e-12) << hits;
+        EXPECT_NEAR(at_most, 0.025, 1e-12) << hits;
+    }
 }
 
 TEST(exact_decimals, give_back_the_very_double) {
