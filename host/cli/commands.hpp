@@ -2,22 +2,13 @@
 // them; what it does lies in the file of the same name.
 #pragma once
 
+#include "host/run/exit_code.hpp"
+
 namespace CLI {
 class App;
 }
 
 namespace hopscotch {
-
-/// Exit codes: promises to scripts.
-enum exit_code : int {
-    exit_done = 0,
-    exit_failed = 1,  // a mistake in this program
-    exit_usage = 2,
-    exit_input = 3,
-    exit_store = 4,
-    exit_device = 5,
-    exit_resumable = 75
-};
 
 void add_run(CLI::App& program, int& exit_code);
 void add_eval(CLI::App& program, int& exit_code);

@@ -2,11 +2,9 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/usage_error.hpp"
 #include "host/run/build_info.hpp"
-#include "host/run/device_error.hpp"
 #include "host/run/stop_condition.hpp"
-#include "host/scene/error.hpp"
+#include "host/run/team.hpp"
 #include "host/scene/suggest.hpp"
-#include "host/store/store_error.hpp"
 
 #include <cstdio>
 
@@ -98,16 +96,12 @@ int run_program(int argc, const char* const* argv) try {
     return code;
 } catch (const usage_error& error) {
     return complain(error.what(), exit_usage);
-} catch (const scene_error& error) {
-    return complain(error.what(), exit_input);
-} catch (const store_error& error) {
-    return complain(error.what(), exit_store);
-} catch (const device_error& error) {
-    return complain(error.what(), exit_device);
 } catch (const interruption&) {
     return complain("interrupted", exit_resumable);
+} catch (const rank_failure& other) {
+    return other.what()[0] == '\0' ? other.code() : complain(other.what(), other.code());
 } catch (const std::exception& error) {
-    return complain(error.what(), exit_failed);
+    return complain(error.what(), exit_code_of(error));
 }
 
 }  // namespace hopscotch

@@ -295,7 +295,7 @@ run_report run_diagram(const scene& scene, const run_choices& choices) {
                          scene.output.compression,
                          report.seconds / static_cast<double>(report.n_tiles)));
     }
-    report.tally = {report.n_cells, 0, diagram.lanes()};
+    report.tally = {report.n_tiles, report.n_cells, 0, diagram.lanes(), report.seconds};
     report.outcomes = run.counts("outcome");
     report.hash = run.hash();
     run.finish({});

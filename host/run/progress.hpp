@@ -13,9 +13,20 @@ namespace hopscotch {
 
 /// What is known of the cells computed so far in this run.
 struct run_tally {
+    std::uint64_t tiles = 0;
     std::uint64_t cells = 0;
     std::uint64_t undecided = 0;  // spent their budget or met what cannot be decided
     lane_statistics lanes;
+    double busy = 0.0;  // seconds that threads have spent on tiles
+
+    run_tally& operator+=(const run_tally& other) {
+        tiles += other.tiles;
+        cells += other.cells;
+        undecided += other.undecided;
+        lanes += other.lanes;
+        busy += other.busy;
+        return *this;
+    }
 };
 
 class progress_line {
@@ -27,7 +38,7 @@ public:
     progress_line(const progress_line&) = delete;
     progress_line& operator=(const progress_line&) = delete;
 
-    /// From the one writing thread, after every tile.
+    /// From one thread at a time.
     void show(const run_tally& tally);
 
 private:

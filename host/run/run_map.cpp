@@ -3,108 +3,25 @@
 
 #include "host/run/attributes.hpp"
 #include "host/run/open_cells.hpp"
+#include "host/run/device_error.hpp"
 #include "host/run/orbit_diagram.hpp"
+#include "host/run/plan_digest.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
+#include "host/run/tile_pipeline.hpp"
 #include "host/run/tiles.hpp"
 #include "host/scene/grid.hpp"
 #include "host/scene/questions.hpp"
 
 #include <algorithm>
-#include <atomic>
+#include <optional>
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
 
 namespace hopscotch {
 namespace {
-
-struct finished_tile {
-    compressed_tile tile;
-    lane_statistics lanes;
-};
-
-/// Compute and compress in parallel, write one at a time; no more than two tiles per thread in
-/// flight.
-class tile_pipeline {
-public:
-    tile_pipeline(const tile_job& job, std::vector<std::uint64_t> tiles, map_run& run,
-                  const stop_condition& stop, int n_threads, bool is_quiet)
-        : job_(job),
-          run_(run),
-          stop_(stop),
-          n_threads_(n_threads),
-          tiles_(std::move(tiles)),
-          progress_(job.layout.n_cells(), cells_done(), is_quiet) {}
-
-    run_tally compute() {
-        const auto n_threads = static_cast<std::size_t>(n_threads_);
-        tbb::task_arena arena(n_threads_);
-        arena.execute([&] {
-            using tbb::filter_mode;
-            tbb::parallel_pipeline(
-                2 * n_threads,
-                tbb::make_filter<void, std::uint64_t>(
-                    filter_mode::serial_in_order,
-                    [&](tbb::flow_control& flow) { return next(flow); }) &
-                    tbb::make_filter<std::uint64_t, finished_tile>(
-                        filter_mode::parallel, [&](std::uint64_t tile) { return finish(tile); }) &
-                    tbb::make_filter<finished_tile, void>(
-                        filter_mode::serial_out_of_order,
-                        [&](const finished_tile& tile) { write(tile); }));
-        });
-        return tally_;
-    }
-
-    /// Tiles that were not reached before the run had to stop.
-    std::size_t n_left() const { return tiles_.size() - next_; }
-
-private:
-    std::uint64_t cells_done() const {
-        std::uint64_t wanted = 0;
-        for (const std::uint64_t tile : tiles_) wanted += box_of(job_.layout, tile).n_cells();
-        return job_.layout.n_cells() - wanted;
-    }
-
-    std::uint64_t next(tbb::flow_control& flow) {
-        if (next_ < tiles_.size() && !stop_.is_due(1.5 * slowest_)) return tiles_[next_++];
-        flow.stop();
-        return 0;
-    }
-
-    finished_tile finish(std::uint64_t index) {
-        const tile_result result = compute_tile(job_, box_of(job_.layout, index));
-        const int level = job_.what.output.compression;
-        return {compress(job_.layout, result.data, level, result.seconds), result.lanes};
-    }
-
-    void write(const finished_tile& finished) {
-        run_.put(finished.tile);
-        const tile_summary& summary = finished.tile.summary;
-        if (summary.seconds > slowest_) slowest_ = summary.seconds;
-        tally_.cells += finished.tile.box.n_cells();
-        tally_.lanes += finished.lanes;
-        for (std::size_t i = 0; i < job_.layers.size(); ++i) {
-            if (job_.layers[i].role != layer_role::outcome) continue;
-            for (const auto& [code, n] : summary.counts[i]) {
-                if (is_undecided(job_.what, code)) tally_.undecided += n;
-            }
-        }
-        progress_.show(tally_);
-    }
-
-    const tile_job& job_;
-    map_run& run_;
-    const stop_condition& stop_;
-    int n_threads_;
-    std::vector<std::uint64_t> tiles_;
-    std::size_t next_ = 0;
-    std::atomic<double> slowest_ = 0.0;  // seconds of the slowest tile so far
-    run_tally tally_;
-    progress_line progress_;
-};
 
 void set_shares(std::vector<attractor_row>& attractors, const value_counts& labels,
                 std::uint64_t n_cells) {
@@ -113,20 +30,6 @@ void set_shares(std::vector<attractor_row>& attractors, const value_counts& labe
         const std::uint64_t n = found == labels.end() ? 0 : found->second;
         row.share = static_cast<double>(n) / static_cast<double>(n_cells);
     }
-}
-
-/// Searches for attractors from the cells that the first pass has left without a label. Returns the
-/// tiles to compute once more: those with such cells, if new attractors were found.
-std::vector<std::uint64_t> search_again(const scene& scene, const run_hooks& hooks, map_run& run,
-                                        label_plan& plan) {
-    const open_cells open = find_open_cells(scene, run);
-    if (open.sample.empty()) return {};
-    if (!plan.searched.empty()) return open.tiles;  // a resumed run: some may be done already
-    label_plan more = hooks.plan(scene, open.sample);
-    if (more.attractors.size() == plan.attractors.size()) return {};
-    run.keep(searched_cells, text_of(open.sample));
-    plan = std::move(more);
-    return open.tiles;
 }
 
 void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hooks, map_run& run,
@@ -149,58 +52,199 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
     report.is_finished = true;
 }
 
+/// Share of the ranks' time in which they had nothing left to draw, while others still computed.
+double idle_share(const std::vector<double>& seconds) {
+    const double longest = *std::max_element(seconds.begin(), seconds.end());
+    double idle = 0.0;
+    for (const double each : seconds) idle += longest - each;
+    return longest > 0.0 ? idle / (longest * static_cast<double>(seconds.size())) : 0.0;
+}
+
+/// One run by a team, seen from one rank. The members are called in the order they stand here.
+class team_run {
+public:
+    team_run(const scene& scene, const run_choices& choices, const run_hooks& hooks, team& ranks)
+        : scene_(scene),
+          choices_(choices),
+          hooks_(hooks),
+          ranks_(ranks),
+          stop_(choices.walltime),
+          kernel_(kernel_of(scene, choices.backend)),
+          layout_(layout_of(scene)),
+          layers_(chosen_layers(scene)),
+          n_threads_(choices.n_threads > 0 ? choices.n_threads : ranks.default_threads()),
+          threads_(tbb::global_control::max_allowed_parallelism,
+                   static_cast<std::size_t>(n_threads_)) {
+        report_.file = choices.file.empty() ? scene.output.file : choices.file;
+        report_.backend = name_of(kernel_.which);
+        report_.n_cells = layout_.n_cells();
+        report_.n_tiles = layout_.n_tiles();
+        report_.n_ranks = ranks.size();
+    }
+
+    run_report run() {
+        open();
+        if (report_.is_finished) return report_;
+        make_plan();
+        if (!compute(missing_)) return report_;
+        if (!compute(search_again())) return report_;
+        finish();
+        return report_;
+    }
+
+private:
+    /// Rank 0 checks what is there, the others then join it.
+    void open() {
+        ranks_.together([&] {
+            if (ranks_.is_first()) open_as(run_role::owner);
+        });
+        missing_ = ranks_.from_first(run_ ? run_->missing_tiles() : missing_);
+        searched_ = ranks_.from_first(run_ ? cells_of(run_->kept(searched_cells)) : searched_);
+        report_.is_finished = ranks_.from_first({run_ && run_->complete() ? 1U : 0U})[0] == 1;
+        if (report_.is_finished) return;
+        ranks_.together([&] {
+            if (!ranks_.is_first()) open_as(run_role::helper);
+        });
+        for (const double each : ranks_.from_all(n_threads_)) n_all_threads_ += each;
+        report_.n_threads = static_cast<int>(n_all_threads_);
+    }
+
+    void open_as(run_role role) {
+        run_.emplace(layout_, run_options{.map = report_.file,
+                                          .fingerprint = scene_.fingerprint,
+                                          .attributes = attributes_of(scene_, kernel_),
+                                          .existing = choices_.existing,
+                                          .role = role});
+        report_.notes = run_->notes();
+    }
+
+    void make_plan() {
+        if (!hooks_.plan || !scene_.question.has_labels) return;
+        ranks_.together([&] { plan_ = hooks_.plan(scene_, searched_); });
+        require_one_plan();
+    }
+
+    /// The search for attractors is deterministic, but the C library's functions are not the same
+    /// on every processor: ranks with different plans would give a map that no single machine does.
+    void require_one_plan() {
+        const std::string strangers = ranks_.who_differs(plan_digest(plan_));
+        ranks_.together([&] {
+            if (strangers.empty()) return;
+            throw device_error(fmt::format(
+                "{} (found other attractors than rank 0: another kind of processor); nodes of one "
+                "kind?",
+                strangers));
+        });
+    }
+
+    /// Computes tiles together; true where all of them are done.
+    bool compute(const std::vector<std::uint64_t>& tiles) {
+        std::uint64_t n_wanted = 0;
+        for (const std::uint64_t tile : tiles) n_wanted += box_of(layout_, tile).n_cells();
+        progress_line line(layout_.n_cells(), layout_.n_cells() - n_wanted,
+                           choices_.is_quiet || !ranks_.is_first());
+        const tile_job job{scene_, plan_, layout_, layers_, kernel_};
+        const auto queue =
+            ranks_.open_queue(tiles, [&](const run_tally& tally) { line.show(tally); });
+        const double begin = stop_.elapsed();
+        double end = begin;
+        ranks_.together([&] {
+            compute_tiles(job, *queue, *run_, stop_, n_threads_);
+            end = stop_.elapsed();
+        });
+        const run_tally total = queue->close();
+        report_.idle_at_end = idle_share(ranks_.from_all(end - begin));
+        report_.tally += total;
+        report_.seconds += stop_.elapsed() - begin;
+        report_.n_missing = tiles.size() - total.tiles;
+        ranks_.together([&] {
+            if (ranks_.is_first() && ranks_.size() > 1) run_->rescan();
+        });
+        return report_.n_missing == 0;
+    }
+
+    /// Searches for attractors from the cells that the first pass has left without a label. Returns
+    /// the tiles to compute once more: those with such cells, if new attractors were found.
+    std::vector<std::uint64_t> search_again() {
+        if (!hooks_.plan || plan_.decided_by != decision::ellipsoids || plan_.of_cell) return {};
+        open_cells open;
+        ranks_.together([&] {
+            if (ranks_.is_first()) open = find_open_cells(scene_, *run_);
+        });
+        open.sample = ranks_.from_first(std::move(open.sample));
+        open.tiles = ranks_.from_first(std::move(open.tiles));
+        if (open.sample.empty()) return {};
+        if (!plan_.searched.empty()) return open.tiles;  // resumed: some may be done already
+        label_plan more;
+        ranks_.together([&] { more = hooks_.plan(scene_, open.sample); });
+        if (more.attractors.size() == plan_.attractors.size()) return {};
+        plan_ = std::move(more);
+        require_one_plan();
+        ranks_.together([&] {
+            if (ranks_.is_first()) run_->keep(searched_cells, text_of(open.sample));
+        });
+        return open.tiles;
+    }
+
+    void finish() {
+        ranks_.together([&] {
+            if (!ranks_.is_first()) return;
+            try {
+                finish_map(scene_, plan_, hooks_, *run_, report_);
+            } catch (const interruption&) {
+                // all tiles are there: a resumed run only audits and packs
+            }
+        });
+        report_.is_finished = ranks_.from_first({report_.is_finished ? 1U : 0U})[0] == 1;
+    }
+
+    const scene& scene_;
+    const run_choices& choices_;
+    const run_hooks& hooks_;
+    team& ranks_;
+    stop_condition stop_;
+    kernel_choice kernel_;
+    map_layout layout_;
+    std::vector<layer_plan> layers_;
+    int n_threads_;
+    tbb::global_control threads_;
+    double n_all_threads_ = 0.0;
+    std::optional<map_run> run_;
+    std::vector<std::uint64_t> missing_;
+    std::vector<std::uint64_t> searched_;
+    label_plan plan_;
+    run_report report_;
+};
+
+/// A diagram's orbits are carried along its axis, so that it is no set of tiles: rank 0 computes
+/// it.
+run_report run_diagram_by(team& ranks, const scene& scene, const run_choices& choices) {
+    run_report report;
+    ranks.together([&] {
+        if (ranks.is_first()) report = run_diagram(scene, choices);
+    });
+    if (ranks.size() > 1 && ranks.is_first()) {
+        report.notes.push_back("an orbit diagram is computed by one process: the other " +
+                               std::to_string(ranks.size() - 1) + " have waited");
+    }
+    report.is_finished = ranks.from_first({report.is_finished ? 1U : 0U})[0] == 1;
+    return report;
+}
+
 }  // namespace
 
-run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks) {
+run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks,
+                   team& ranks) {
     check_is_map(scene);
-    if (is_orbit_diagram(scene)) return run_diagram(scene, choices);
-    const stop_condition stop(choices.walltime);
-    const kernel_choice kernel = kernel_of(scene, choices.backend);
-    const map_layout layout = layout_of(scene);
-    run_report report;
-    report.file = choices.file.empty() ? scene.output.file : choices.file;
-    report.backend = name_of(kernel.which);
-    report.n_cells = layout.n_cells();
-    report.n_tiles = layout.n_tiles();
-    map_run run(layout, {.map = report.file,
-                         .fingerprint = scene.fingerprint,
-                         .attributes = attributes_of(scene, kernel),
-                         .existing = choices.existing});
-    report.notes = run.notes();
-    report.is_finished = run.complete();
-    if (report.is_finished) return report;
+    if (is_orbit_diagram(scene)) return run_diagram_by(ranks, scene, choices);
+    std::optional<team_run> run;
+    ranks.together([&] { run.emplace(scene, choices, hooks, ranks); });
+    return run->run();
+}
 
-    label_plan plan;
-    if (hooks.plan && scene.question.has_labels) {
-        plan = hooks.plan(scene, cells_of(run.kept(searched_cells)));
-    }
-    const std::vector<layer_plan> layers = chosen_layers(scene);
-    const tile_job job{scene, plan, layout, layers, kernel};
-    const double begin = stop.elapsed();
-    const int n_threads = threads_for(choices.n_threads);
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(n_threads));
-    const auto compute = [&](std::vector<std::uint64_t> tiles) {
-        tile_pipeline pipeline(job, std::move(tiles), run, stop, n_threads, choices.is_quiet);
-        const run_tally tally = pipeline.compute();
-        report.tally.cells += tally.cells;
-        report.tally.undecided += tally.undecided;
-        report.tally.lanes += tally.lanes;
-        report.seconds = stop.elapsed() - begin;
-        report.n_missing = pipeline.n_left();
-        return report.n_missing == 0;
-    };
-    if (!compute(run.missing_tiles())) return report;
-    if (hooks.plan && plan.decided_by == decision::ellipsoids && !plan.of_cell) {
-        const std::vector<std::uint64_t> open_tiles = search_again(scene, hooks, run, plan);
-        if (!compute(open_tiles)) return report;
-    }
-    try {
-        finish_map(scene, plan, hooks, run, report);
-    } catch (const interruption&) {
-        report.is_finished = false;  // all tiles are there: a resumed run only audits and packs
-    }
-    return report;
+run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks) {
+    team_of_one alone;
+    return run_map(scene, choices, hooks, alone);
 }
 
 int threads_for(int wanted) { return wanted > 0 ? wanted : tbb::info::default_concurrency(); }

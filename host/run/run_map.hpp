@@ -5,6 +5,7 @@
 
 #include "host/run/label_plan.hpp"
 #include "host/run/progress.hpp"
+#include "host/run/team.hpp"
 #include "host/scene/scene.hpp"
 #include "host/store/map_run.hpp"
 
@@ -41,6 +42,9 @@ struct run_report {
     std::uint64_t n_missing = 0;  // tiles that an interrupted run leaves
     run_tally tally;              // of the cells computed now
     double seconds = 0.0;         // spent on tiles
+    int n_ranks = 1;
+    int n_threads = 1;         // of all ranks
+    double idle_at_end = 0.0;  // share of the ranks' time after their queue was dry
     std::vector<attractor_row> attractors;
     value_counts labels;
     value_counts motions;
@@ -54,7 +58,14 @@ struct run_report {
 /// stay
 run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks);
 
-/// Number of threads for a choice of 0 or more.
+/// The same by all ranks of a team, to be called on each of them. Rank 0 owns the run directory,
+/// audits and packs; all ranks search for attractors, which is deterministic, rather than wait for
+/// one that does. Ranks other than 0 report nothing but how the run ended.
+/// \error  also rank_failure, where another rank met one of the above
+run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks,
+                   team& ranks);
+
+/// Number of threads for a choice of 0 or more, of a process alone.
 int threads_for(int wanted);
 
 /// Outcomes that leave a cell without an answer.
