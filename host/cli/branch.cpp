@@ -4,6 +4,8 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/tables.hpp"
 #include "host/cli/text_output.hpp"
+#include "host/cli/usage_error.hpp"
+#include "host/mpi/launcher.hpp"
 
 #include <memory>
 
@@ -26,7 +28,18 @@ std::string stem_of(const scene& scene) {
     return stem.ends_with(ending) ? stem : stem + ending;
 }
 
+/// Branches are followed by one process; several would write the same files.
+bool is_left_to_another() {
+    const launch started = this_launch();
+    if (started.size < 2) return false;
+    if (started.rank > 0) return true;
+    throw usage_error(
+        fmt::format("branch (one process follows branches, {} were started); without the launcher?",
+                    started.size));
+}
+
 int print_branches(const branch_arguments& given) {
+    if (is_left_to_another()) return exit_done;
     const scene scene = read_scene(given.scene, given.overrides);
     const std::string stem = given.output.empty() ? stem_of(scene) : given.output;
     const branch_answer answer = follow_branches(scene, stem);

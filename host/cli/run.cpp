@@ -4,12 +4,14 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/durations.hpp"
 #include "host/cli/text_output.hpp"
+#include "host/mpi/start_team.hpp"
 #include "host/run/audit.hpp"
 #include "host/run/estimate.hpp"
 #include "host/run/run_map.hpp"
 #include "host/run/summary.hpp"
 
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -93,18 +95,33 @@ int interrupted(const run_report& report) {
     return exit_resumable;
 }
 
-int run(const run_arguments& given) {
-    const scene scene = read_scene(given.scene, given.overrides);
-    const run_choices choices = choices_of(given);
-    const std::filesystem::path file = choices.file.empty() ? scene.output.file : choices.file;
-    const run_hooks hooks = hooks_of(scene, file);
+int run_by(team& ranks, const run_arguments& given) {
+    std::optional<scene> what;
+    run_choices choices;
+    ranks.together([&] {
+        what = read_scene(given.scene, given.overrides);
+        choices = choices_of(given);
+    });
+    const std::filesystem::path file = choices.file.empty() ? what->output.file : choices.file;
+    const run_hooks hooks = hooks_of(*what, file);
     if (given.is_dry) {
-        fmt::print("{}", text_of(scene, estimate(scene, choices, hooks)));
+        if (ranks.is_first()) fmt::print("{}", text_of(*what, estimate(*what, choices, hooks)));
         return exit_done;
     }
-    const run_report report = run_map(scene, choices, hooks);
+    const run_report report = run_map(*what, choices, hooks, ranks);
+    if (!ranks.is_first()) return report.is_finished ? exit_done : exit_resumable;
     for (const std::string& note : report.notes) fmt::print(stderr, "hopscotch: {}\n", note);
-    return report.is_finished ? finish(scene, report) : interrupted(report);
+    return report.is_finished ? finish(*what, report) : interrupted(report);
+}
+
+int run(const run_arguments& given) {
+    team& ranks = start_team();
+    try {
+        return run_by(ranks, given);
+    } catch (const std::exception& error) {
+        ranks.leave(error);
+        throw;
+    }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // hopscotch version: what this program is and what it can run on.
 #include "host/cli/commands.hpp"
+#include "host/mpi/start_team.hpp"
 #include "host/run/backends.hpp"
 #include "host/run/build_info.hpp"
 
@@ -19,6 +20,8 @@ int print_version() {
         const std::string reason = reason_against(which);
         fmt::print("backend   {:<7} {}\n", name_of(which), reason.empty() ? "available" : reason);
     }
+    const std::string mpi = mpi_library();
+    fmt::print("mpi       {}\n", mpi.empty() ? "this program is built without MPI" : mpi);
     return exit_done;
 }
 
@@ -26,7 +29,7 @@ int print_version() {
 
 void add_version(CLI::App& program, int& exit_code) {
     CLI::App* command =
-        program.add_subcommand("version", "Version, revision, compiler and backends");
+        program.add_subcommand("version", "Version, revision, compiler, backends and MPI");
     command->callback([&exit_code] { exit_code = print_version(); });
 }
 

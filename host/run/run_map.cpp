@@ -95,6 +95,7 @@ public:
 private:
     /// Rank 0 checks what is there, the others then join it.
     void open() {
+        require_one_scene();
         ranks_.together([&] {
             if (ranks_.is_first()) open_as(run_role::owner);
         });
@@ -107,6 +108,16 @@ private:
         });
         for (const double each : ranks_.from_all(n_threads_)) n_all_threads_ += each;
         report_.n_threads = static_cast<int>(n_all_threads_);
+    }
+
+    void require_one_scene() {
+        const std::string other =
+            ranks_.who_differs(scene_.fingerprint + " " + report_.file.string());
+        ranks_.together([&] {
+            if (other.empty()) return;
+            throw scene_error({scene_.file, other, "", "it was given another scene or map file",
+                               "the same command on every rank"});
+        });
     }
 
     void open_as(run_role role) {

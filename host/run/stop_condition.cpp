@@ -13,6 +13,8 @@ void raise_flag(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
+void raise_flag_again(int) { has_signal = 1; }
+
 }  // namespace
 
 stop_condition::stop_condition(std::optional<double> walltime)
@@ -20,11 +22,13 @@ stop_condition::stop_condition(std::optional<double> walltime)
     has_signal = 0;
     std::signal(SIGINT, raise_flag);
     std::signal(SIGTERM, raise_flag);
+    std::signal(SIGUSR1, raise_flag_again);
 }
 
 stop_condition::~stop_condition() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGUSR1, SIG_IGN);  // the answer is being written
 }
 
 bool stop_condition::is_interrupted() { return has_signal != 0; }

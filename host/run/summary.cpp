@@ -89,6 +89,11 @@ double rate_of(const run_report& report) {
     return static_cast<double>(report.tally.cells) / std::max(report.seconds, 1e-9);
 }
 
+/// Share of the threads' time spent on computing tiles.
+double busy_share(const run_report& report) {
+    return report.tally.busy / std::max(report.n_threads * report.seconds, 1e-9);
+}
+
 }  // namespace
 
 std::string text_of(const scene& scene, const run_report& report) {
@@ -99,6 +104,12 @@ std::string text_of(const scene& scene, const run_report& report) {
     text += fmt::format("seconds          {:.3f}\n", report.seconds);
     text += fmt::format("cells/s          {:.4g}\n", rate_of(report));
     text += fmt::format("lane efficiency  {:.1f} %\n", 100.0 * report.tally.lanes.efficiency());
+    if (report.n_ranks > 1) {
+        text += fmt::format(
+            "ranks            {} ({} threads, {:.1f} % busy, {:.1f} % idle at the end)\n",
+            report.n_ranks, report.n_threads, 100.0 * busy_share(report),
+            100.0 * report.idle_at_end);
+    }
     append_shares(text, "labels", label_shares(report));
     append_shares(text, "motion", motion_shares(report));
     append_shares(text, "outcomes", outcome_shares(report));
@@ -123,6 +134,10 @@ std::string json_of(const scene& scene, const run_report& report) {
     add("seconds", fmt::format("{:.17g}", report.seconds));
     add("cells_per_second", fmt::format("{:.17g}", rate_of(report)));
     add("lane_efficiency", fmt::format("{:.17g}", report.tally.lanes.efficiency()));
+    add("ranks", fmt::format("{}", report.n_ranks));
+    add("threads", fmt::format("{}", report.n_threads));
+    add("busy", fmt::format("{:.17g}", busy_share(report)));
+    add("idle_at_end", fmt::format("{:.17g}", report.idle_at_end));
     add("labels", json_shares(label_shares(report)));
     if (!report.motions.empty()) add("motions", json_shares(motion_shares(report)));
     add("outcomes", json_shares(outcome_shares(report)));
