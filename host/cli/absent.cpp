@@ -16,7 +16,6 @@ struct absent_command {
 
 constexpr absent_command absent[] = {
     {"bench", "Speed against error", "./hopscotch bench in a checkout"},
-    {"merge", "Join maps", "hopscotch run --resume"},
 };
 
 }  // namespace

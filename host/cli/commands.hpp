@@ -16,6 +16,7 @@ void add_trace(CLI::App& program, int& exit_code);
 void add_attractors(CLI::App& program, int& exit_code);
 void add_analyse(CLI::App& program, int& exit_code);
 void add_branch(CLI::App& program, int& exit_code);
+void add_merge(CLI::App& program, int& exit_code);
 void add_render(CLI::App& program, int& exit_code);
 void add_verify(CLI::App& program, int& exit_code);
 void add_replay(CLI::App& program, int& exit_code);

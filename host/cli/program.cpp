@@ -22,6 +22,7 @@ int complain(const char* what, int code) {
 void add_commands(CLI::App& program, int& code) {
     program.require_subcommand(1);
     add_run(program, code);
+    add_merge(program, code);
     add_eval(program, code);
     add_trace(program, code);
     add_attractors(program, code);

@@ -1,13 +1,10 @@
 // hopscotch run SCENE.toml [key=value ...]: the map, its picture and its summary.
-#include "analysis/labels/plan.hpp"
-#include "analysis/render/render.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/durations.hpp"
-#include "host/cli/text_output.hpp"
+#include "host/cli/run_answer.hpp"
+#include "host/cli/shard_argument.hpp"
 #include "host/mpi/start_team.hpp"
-#include "host/run/audit.hpp"
 #include "host/run/estimate.hpp"
-#include "host/run/run_map.hpp"
 #include "host/run/summary.hpp"
 
 #include <memory>
@@ -30,6 +27,7 @@ struct run_arguments {
     bool is_dry = false;
     bool is_quiet = false;
     std::string walltime;
+    std::string shard;
 };
 
 run_choices choices_of(const run_arguments& given) {
@@ -40,59 +38,9 @@ run_choices choices_of(const run_arguments& given) {
     choices.is_quiet = given.is_quiet;
     if (given.is_forced) choices.existing = if_exists::replace;
     if (given.is_resumed) choices.existing = if_exists::resume;
+    if (!given.shard.empty()) choices.part = shard_of(given.shard);
     if (!given.walltime.empty()) choices.walltime = seconds_of(given.walltime);
     return choices;
-}
-
-run_hooks hooks_of(const scene& scene, const std::filesystem::path& file) {
-    run_hooks hooks;
-    hooks.plan = plan_labels;
-    if (scene.model->orbits_table == nullptr) return hooks;
-    hooks.audit = [file](const struct scene& what, const label_plan& plan, const map_run& run) {
-        const audit_report report = audit(
-            what, plan, [&](std::uint64_t tile) { return run.read(tile); },
-            what.accuracy.audit_cells);
-        return attributes_of(what, report, file);
-    };
-    return hooks;
-}
-
-/// A file beside the map, of the same name up to its ending.
-std::filesystem::path companion(std::filesystem::path map, const std::string& ending) {
-    if (map.extension() == ending) return map += ending;
-    return map.replace_extension(ending);
-}
-
-/// The picture is a courtesy: without it the run is still done.
-void write_picture(const run_report& report) {
-    const std::filesystem::path picture = companion(report.file, ".png");
-    try {
-        render_map(report.file, picture);
-        fmt::print("picture          {}\n", picture.string());
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "hopscotch: no picture: {}\n", error.what());
-    }
-}
-
-int finish(const scene& scene, const run_report& report) {
-    if (report.n_tiles > 0 && report.hash.empty()) {
-        fmt::print("{} is finished already\n", report.file.string());
-        return exit_done;
-    }
-    fmt::print("{}", text_of(scene, report));
-    const std::filesystem::path summary = companion(report.file, ".json");
-    put_text(summary.string(), json_of(scene, report));
-    fmt::print("summary          {}\n", summary.string());
-    write_picture(report);
-    return exit_done;
-}
-
-int interrupted(const run_report& report) {
-    fmt::print(
-        stderr,
-        "hopscotch: {} ({} of {} tiles are done, none is lost); the same command with --resume?\n",
-        report.file.string(), report.n_tiles - report.n_missing, report.n_tiles);
-    return exit_resumable;
 }
 
 int run_by(team& ranks, const run_arguments& given) {
@@ -102,16 +50,13 @@ int run_by(team& ranks, const run_arguments& given) {
         what = read_scene(given.scene, given.overrides);
         choices = choices_of(given);
     });
-    const std::filesystem::path file = choices.file.empty() ? what->output.file : choices.file;
-    const run_hooks hooks = hooks_of(*what, file);
     if (given.is_dry) {
-        if (ranks.is_first()) fmt::print("{}", text_of(*what, estimate(*what, choices, hooks)));
+        if (!ranks.is_first()) return exit_done;
+        const run_hooks hooks = hooks_of(*what, choices.file);
+        fmt::print("{}", text_of(*what, estimate(*what, choices, hooks)));
         return exit_done;
     }
-    const run_report report = run_map(*what, choices, hooks, ranks);
-    if (!ranks.is_first()) return report.is_finished ? exit_done : exit_resumable;
-    for (const std::string& note : report.notes) fmt::print(stderr, "hopscotch: {}\n", note);
-    return report.is_finished ? finish(*what, report) : interrupted(report);
+    return run_and_tell(*what, choices, ranks);
 }
 
 int run(const run_arguments& given) {
@@ -142,6 +87,8 @@ void add_run(CLI::App& program, int& exit_code) {
                       "Say cells, bytes, memory and time; compute nothing");
     command->add_option("--walltime", given->walltime,
                         "H:MM:SS after which the run stops, resumable");
+    command->add_option("--shard", given->shard,
+                        "I/N: only shard I of N of the tiles; `merge` joins them");
     command->add_flag("--quiet", given->is_quiet, "No progress line");
     command->callback([given, &exit_code] { exit_code = run(*given); });
 }

@@ -60,6 +60,9 @@ double idle_share(const std::vector<double>& seconds) {
     return longest > 0.0 ? idle / (longest * static_cast<double>(seconds.size())) : 0.0;
 }
 
+/// Name under which the plan of a second search is kept.
+constexpr const char* kept_second_plan = "second_plan";
+
 /// One run by a team, seen from one rank. The members are called in the order they stand here.
 class team_run {
 public:
@@ -78,7 +81,7 @@ public:
         report_.file = choices.file.empty() ? scene.output.file : choices.file;
         report_.backend = name_of(kernel_.which);
         report_.n_cells = layout_.n_cells();
-        report_.n_tiles = layout_.n_tiles();
+        report_.n_tiles = choices.part.n_tiles(layout_.n_tiles());
         report_.n_ranks = ranks.size();
     }
 
@@ -87,6 +90,8 @@ public:
         if (report_.is_finished) return report_;
         make_plan();
         if (!compute(missing_)) return report_;
+        report_.is_part_done = !choices_.part.is_whole();
+        if (report_.is_part_done) return report_;
         if (!compute(search_again())) return report_;
         finish();
         return report_;
@@ -97,7 +102,9 @@ private:
     void open() {
         require_one_scene();
         ranks_.together([&] {
-            if (ranks_.is_first()) open_as(run_role::owner);
+            if (!ranks_.is_first()) return;
+            open_as(run_role::owner);
+            if (choices_.is_merge) run_->require_all_tiles();
         });
         missing_ = ranks_.from_first(run_ ? run_->missing_tiles() : missing_);
         searched_ = ranks_.from_first(run_ ? cells_of(run_->kept(searched_cells)) : searched_);
@@ -125,7 +132,9 @@ private:
                                           .fingerprint = scene_.fingerprint,
                                           .attributes = attributes_of(scene_, kernel_),
                                           .existing = choices_.existing,
-                                          .role = role});
+                                          .role = role,
+                                          .part = choices_.part,
+                                          .adopted = choices_.adopted});
         report_.notes = run_->notes();
     }
 
@@ -138,14 +147,28 @@ private:
     /// The search for attractors is deterministic, but the C library's functions are not the same
     /// on every processor: ranks with different plans would give a map that no single machine does.
     void require_one_plan() {
-        const std::string strangers = ranks_.who_differs(plan_digest(plan_));
+        const std::string digest = plan_digest(plan_);
+        const std::string strangers = ranks_.who_differs(digest);
         ranks_.together([&] {
-            if (strangers.empty()) return;
-            throw device_error(fmt::format(
-                "{} (found other attractors than rank 0: another kind of processor); nodes of one "
-                "kind?",
-                strangers));
+            if (!strangers.empty()) {
+                throw device_error(strangers +
+                                   " (found other attractors than rank 0: another kind of "
+                                   "processor); nodes of one kind?");
+            }
+            if (ranks_.is_first()) keep_plan(digest);
         });
+    }
+
+    /// The same for shards and for runs that were begun elsewhere or by another version.
+    void keep_plan(const std::string& digest) {
+        const char* name = plan_.searched.empty() ? kept_plan : kept_second_plan;
+        const std::string before = run_->kept(name);
+        if (before.empty()) return run_->keep(name, digest);
+        if (before == digest) return;
+        throw store_error(map_run::directory_of(report_.file).string(),
+                          "begun with other attractors, by another version or on another kind of "
+                          "processor",
+                          "go on there, or begin anew with --force");
     }
 
     /// Computes tiles together; true where all of them are done.
@@ -232,6 +255,10 @@ private:
 run_report run_diagram_by(team& ranks, const scene& scene, const run_choices& choices) {
     run_report report;
     ranks.together([&] {
+        if (!choices.part.is_whole()) {
+            throw scene_error({scene.question.place, "question.kind", "\"orbit_diagram\"",
+                               "computed as a whole, not in shards", ""});
+        }
         if (ranks.is_first()) report = run_diagram(scene, choices);
     });
     if (ranks.size() > 1 && ranks.is_first()) {

@@ -23,6 +23,9 @@ struct run_choices {
     if_exists existing = if_exists::refuse;
     std::optional<double> walltime;  // seconds
     bool is_quiet = false;
+    shard part{};                                  // compute these tiles only, and pack nothing
+    bool is_merge = false;                         // compute no missing tiles: all must be there
+    std::vector<std::filesystem::path> adopted{};  // run directories whose tiles are taken over
 };
 
 /// The analysis' part in a run. Both may be empty: then cells have no labels, and no audit is made.
@@ -37,8 +40,9 @@ struct run_report {
     std::filesystem::path file;
     std::string backend;
     bool is_finished = false;
+    bool is_part_done = false;  // all tiles of the shard are there
     std::uint64_t n_cells = 0;
-    std::uint64_t n_tiles = 0;
+    std::uint64_t n_tiles = 0;    // of the shard, if the run is one
     std::uint64_t n_missing = 0;  // tiles that an interrupted run leaves
     run_tally tally;              // of the cells computed now
     double seconds = 0.0;         // spent on tiles

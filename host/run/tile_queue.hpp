@@ -13,16 +13,6 @@
 
 namespace hopscotch {
 
-/// Part `index` of `count` of a run's tiles, for jobs that know nothing of each other: tile t
-/// belongs to part t mod count, so that neighbours, which cost alike, are dealt to all.
-struct shard {
-    std::uint64_t index = 0;
-    std::uint64_t count = 1;
-
-    bool is_whole() const { return count == 1; }
-    bool owns(std::uint64_t tile) const { return tile % count == index; }
-};
-
 class tile_queue {
 public:
     virtual ~tile_queue() = default;

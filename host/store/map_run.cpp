@@ -1,9 +1,11 @@
 #include "host/store/map_run.hpp"
 
+#include "host/store/adopt_tiles.hpp"
 #include "host/store/atomic_file.hpp"
 #include "host/store/map_file.hpp"
 #include "host/store/run_directory.hpp"
 #include "host/store/run_lock.hpp"
+#include "host/store/shard_record.hpp"
 #include "host/store/tile_file.hpp"
 
 #include <algorithm>
@@ -17,27 +19,6 @@
 namespace hopscotch {
 
 namespace {
-
-bool is_same(const axis& a, const axis& b) { return a.name == b.name && a.values == b.values; }
-
-bool is_same(const layer& a, const layer& b) { return a.name == b.name && a.type == b.type; }
-
-/// True where tiles of one layout fit the other.
-bool is_same(const map_layout& a, const map_layout& b) {
-    const auto same = [](const auto& x, const auto& y) { return is_same(x, y); };
-    return std::equal(a.axes.begin(), a.axes.end(), b.axes.begin(), b.axes.end(), same) &&
-           std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(), same) &&
-           full_tile(a) == full_tile(b);
-}
-
-void require_same_scene(const std::filesystem::path& place, const std::string& there,
-                        const std::string& fingerprint) {
-    if (there == fingerprint) return;
-    throw store_error(
-        place.string(),
-        "belongs to another scene: fingerprint " + there + ", this scene's is " + fingerprint,
-        "remove it or choose another name with -o");
-}
 
 std::string plural(std::uint64_t n, const std::string& noun) {
     return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
@@ -55,12 +36,11 @@ struct map_run::implementation {
     void open_as_helper();
     bool is_map_there();
     void clear_or_refuse();
-    void require_same_run();
+    void join_earlier_run();
+    void describe();
     void load(std::uint64_t tile);
     void scan();
-    std::uint64_t n_finished() const;
     std::vector<layer_sum> sums() const;
-    void require_all_tiles() const;
     map_description description(const map_summary& summary) const;
     std::uint64_t bytes_of_tiles() const;
     void pack(const std::filesystem::path& partial, const map_description& map);
@@ -99,35 +79,38 @@ bool map_run::implementation::is_map_there() {
 
 /// What an earlier run left: kept to go on with, removed, or refused.
 void map_run::implementation::clear_or_refuse() {
-    remove_partial_files(directory);
-    const std::vector<std::uint64_t> present = tiles_present(directory);
+    const shard& part = options.part;
+    remove_partial_files(directory, part);
+    const std::vector<std::uint64_t> present = tiles_present(directory, part);
     if (options.existing == if_exists::replace) {
-        remove_tiles(directory);
-        remove_kept(directory);
+        remove_tiles(directory, part);
+        if (tiles_present(directory).empty()) remove_kept(directory);
     } else if (options.existing == if_exists::refuse && !present.empty()) {
         throw store_error(directory.string(),
                           "an unfinished run with " + plural(present.size(), "tile") + " of " +
-                              std::to_string(layout.n_tiles()),
+                              std::to_string(part.n_tiles(layout.n_tiles())),
                           "go on with --resume or remove the folder");
-    } else if (!present.empty()) {
-        require_same_run();
+    }
+    if (!tiles_present(directory).empty()) join_earlier_run();
+}
+
+/// \error store_error where the tiles that lie there are those of another map
+void map_run::implementation::join_earlier_run() {
+    try {
+        require_same_run(directory, layout, options.fingerprint);
+    } catch (const store_error& error) {
+        if (error.place() != description_path(directory).string()) throw;
+        // unreadable: the tiles know their scene themselves
+        notes.push_back(std::string(error.what()) + ": written anew");
     }
 }
 
-void map_run::implementation::require_same_run() {
-    map_description before;
-    try {
-        before = read_run_description(directory);
-    } catch (const store_error& error) {
-        notes.push_back(std::string(error.what()) + ": written anew");
-        return;  // the tiles know their scene themselves
-    }
-    require_same_scene(directory, attribute_of(before.attributes, "fingerprint"),
-                       options.fingerprint);
-    if (!is_same(before.layout, layout)) {
-        throw store_error(directory.string(), "an unfinished run with another grid or tiles",
-                          "remove the folder");
-    }
+/// Shards that begin together may all write the description; it is the same one.
+void map_run::implementation::describe() {
+    map_description map{layout, options.attributes, {}, {}};
+    set_attribute(map.attributes, "fingerprint", options.fingerprint);
+    write_run_description(directory, completed(std::move(map), options.map.string()));
+    if (!options.part.is_whole()) record_shard(directory, options.part);
 }
 
 void map_run::implementation::open() {
@@ -136,14 +119,15 @@ void map_run::implementation::open() {
     is_complete = is_map_there();
     if (is_complete) return;
     make_directory(directory);
-    lock = std::make_unique<run_lock>(directory);
+    lock = std::make_unique<run_lock>(directory, options.part);
     if (!lock->note().empty()) notes.push_back(lock->note());
     clear_or_refuse();
-    map_description map{layout, options.attributes, {}, {}};
-    set_attribute(map.attributes, "fingerprint", options.fingerprint);
-    map = completed(std::move(map), options.map.string());
+    for (const std::filesystem::path& other : options.adopted) {
+        const auto taken = adopt_tiles(directory, other, layout, options.fingerprint);
+        notes.insert(notes.end(), taken.begin(), taken.end());
+    }
     scan();  // before anything of an earlier run is overwritten
-    write_run_description(directory, map);
+    describe();
 }
 
 void map_run::implementation::open_as_helper() {
@@ -170,14 +154,9 @@ void map_run::implementation::load(std::uint64_t tile) {
 }
 
 void map_run::implementation::scan() {
-    for (const std::uint64_t tile : tiles_present(directory)) {
+    for (const std::uint64_t tile : tiles_present(directory, options.part)) {
         if (tile < finished.size() && !finished[tile]) load(tile);
     }
-}
-
-std::uint64_t map_run::implementation::n_finished() const {
-    return static_cast<std::uint64_t>(std::count_if(finished.begin(), finished.end(),
-                                                    [](const auto& t) { return t.has_value(); }));
 }
 
 std::vector<layer_sum> map_run::implementation::sums() const {
@@ -186,16 +165,6 @@ std::vector<layer_sum> map_run::implementation::sums() const {
         for (std::size_t i = 0; tile && i < tile->sums.size(); ++i) total[i] += tile->sums[i];
     }
     return total;
-}
-
-void map_run::implementation::require_all_tiles() const {
-    const auto first = std::find(finished.begin(), finished.end(), std::nullopt);
-    if (first == finished.end()) return;
-    throw store_error(directory.string(),
-                      plural(finished.size() - n_finished(), "tile") + " of " +
-                          std::to_string(finished.size()) + " missing, the first one is " +
-                          std::to_string(first - finished.begin()),
-                      "go on with --resume");
 }
 
 map_description map_run::implementation::description(const map_summary& summary) const {
@@ -240,6 +209,7 @@ void map_run::implementation::pack(const std::filesystem::path& partial,
 
 void map_run::implementation::leave(bool is_done) noexcept {
     if (!lock) return;
+    if (!options.part.is_whole()) return lock.reset();  // the folder is the other shards' too
     try {
         if (is_done || tiles_present(directory).empty()) remove_directory(directory);
     } catch (const std::exception&) {
@@ -279,9 +249,18 @@ std::vector<std::uint64_t> map_run::missing_tiles() const {
     const std::lock_guard guard(self_->mutex);
     std::vector<std::uint64_t> tiles;
     for (std::uint64_t i = 0; i < self_->finished.size(); ++i) {
-        if (!self_->is_complete && !self_->finished[i]) tiles.push_back(i);
+        const bool is_wanted = !self_->is_complete && self_->options.part.owns(i);
+        if (is_wanted && !self_->finished[i]) tiles.push_back(i);
     }
     return tiles;
+}
+
+void map_run::require_all_tiles() const {
+    const std::vector<std::uint64_t> missing = missing_tiles();
+    if (missing.empty()) return;
+    std::string reason = missing_words(self_->directory, missing, self_->finished.size());
+    for (const std::string& note : self_->notes) reason += ": " + note;  // e.g. damaged ones
+    throw store_error(self_->directory.string(), reason, missing_remedy(self_->directory, missing));
 }
 
 void map_run::put(const compressed_tile& tile) {
@@ -293,6 +272,7 @@ void map_run::put(const compressed_tile& tile) {
     write_tile(self_->directory, self_->layout, self_->options.fingerprint, tile);
     const std::lock_guard guard(self_->mutex);
     self_->finished[box.index] = tile.summary;
+    if (self_->lock) self_->lock->touch();
 }
 
 tile_data map_run::read(std::uint64_t tile) const {
@@ -334,9 +314,9 @@ void map_run::rescan() {
 }
 
 void map_run::finish(const map_summary& summary) {
+    require_all_tiles();
     const std::lock_guard guard(self_->mutex);
     if (self_->is_complete) return;
-    self_->require_all_tiles();
     const std::filesystem::path partial = partial_name(self_->directory / "map.h5");
     try {
         require_room(partial, self_->bytes_of_tiles());

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "host/map/layout.hpp"
+#include "host/map/shard.hpp"
 #include "host/store/compressed_tile.hpp"
 #include "host/store/store_error.hpp"
 
@@ -43,6 +44,8 @@ struct run_options {
     attribute_list attributes{};  // known before the run: scene text, version, backend ...
     if_exists existing = if_exists::refuse;
     run_role role = run_role::owner;
+    shard part{};                                  // the tiles this run is about
+    std::vector<std::filesystem::path> adopted{};  // run directories whose tiles are taken over
 };
 
 /// What is known only after the last tile.
@@ -51,6 +54,10 @@ struct map_summary {
     std::vector<attractor_row> attractors{};
     std::vector<std::string> point_columns{};  // names of the columns of attractor_row::points
 };
+
+/// Name under which a run keeps what its labels depend on; tiles of runs that differ in it do not
+/// belong together.
+inline constexpr const char* kept_plan = "plan";
 
 class map_run {
 public:
@@ -69,7 +76,10 @@ public:
     const std::vector<std::string>& notes() const;
 
     std::vector<std::uint64_t> finished_tiles() const;
-    std::vector<std::uint64_t> missing_tiles() const;
+    std::vector<std::uint64_t> missing_tiles() const;  // of those the run is about
+
+    /// \error store_error that names missing tiles, and shards that lack them
+    void require_all_tiles() const;
 
     /// Writes one finished tile: temporary name, then rename. A tile put twice is replaced.
     void put(const compressed_tile& tile);

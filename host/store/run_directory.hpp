@@ -1,7 +1,9 @@
-// The files of an unfinished map: `<map>.tiles/` with `run.h5` (the map without numbers), `lock`
-// and one file per finished tile. Knows their names; map_run decides what happens to them.
+// The files of an unfinished map: `<map>.tiles/` with `run.h5` (the map without numbers), locks,
+// kept texts and one file per finished tile. Knows their names; map_run decides what happens to
+// them.
 #pragma once
 
+#include "host/map/shard.hpp"
 #include "host/store/map_file.hpp"
 
 #include <cstdint>
@@ -24,21 +26,32 @@ void remove_file(const std::filesystem::path& file);
 /// Tiles whose file is there, in ascending order; nothing is read.
 std::vector<std::uint64_t> tiles_present(const std::filesystem::path& directory);
 
-/// Removes what a killed run left under temporary names.
-void remove_partial_files(const std::filesystem::path& directory);
+/// Those of them that belong to a shard.
+std::vector<std::uint64_t> tiles_present(const std::filesystem::path& directory, const shard& part);
 
-void remove_tiles(const std::filesystem::path& directory);
+/// Removes what a killed run left under temporary names; of a shard only its own tiles'.
+void remove_partial_files(const std::filesystem::path& directory, const shard& part = {});
+
+void remove_tiles(const std::filesystem::path& directory, const shard& part = {});
 
 /// Where a run keeps a text under a name.
 std::filesystem::path kept_path(const std::filesystem::path& directory, std::string_view name);
 void remove_kept(const std::filesystem::path& directory);
 
-/// Removes tiles, kept texts, description and temporary files, and the directory once it is empty.
+/// Copies the kept texts that are not there yet.
+void copy_kept(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Removes tiles, kept texts, description, temporary files and dead shards' locks, and the
+/// directory once it is empty.
 void remove_directory(const std::filesystem::path& directory);
 
 void write_run_description(const std::filesystem::path& directory, const map_description& map);
 
 /// \error store_error where there is none or it cannot be read
 map_description read_run_description(const std::filesystem::path& directory);
+
+/// \error store_error where `there`, the fingerprint found at `place`, is not the scene's
+void require_same_scene(const std::filesystem::path& place, const std::string& there,
+                        const std::string& fingerprint);
 
 }  // namespace hopscotch

@@ -1,5 +1,7 @@
+// Takes locks by flock where the file system knows it, else by process number.
 #include "host/store/run_lock.hpp"
 
+#include "host/store/lock_holder.hpp"
 #include "host/store/store_error.hpp"
 
 #include <fcntl.h>
@@ -7,63 +9,22 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
-#include <ctime>
+#include <system_error>
+#include <utility>
 
 namespace hopscotch {
 
 namespace {
 
-struct holder {
-    long process = 0;
-    std::string host;
-    std::string since;
+constexpr const char* whole_name = "lock";
+constexpr const char* shard_prefix = "lock.shard_";
 
-    std::string words() const {
-        return "process " + std::to_string(process) + " on " + host + ", started " + since;
-    }
-};
-
-std::string host_name() {
-    char name[256] = "unknown";
-    ::gethostname(name, sizeof name - 1);
-    return name;
-}
-
-std::string now() {
-    const std::time_t time = std::time(nullptr);
-    std::tm parts{};
-    ::gmtime_r(&time, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
-}
-
-/// Who wrote the lock file; process 0 where it is empty.
-holder read_holder(int descriptor) {
-    std::array<char, 512> text{};
-    if (::pread(descriptor, text.data(), text.size() - 1, 0) <= 0) return {};
-    char host[256] = "";
-    char since[64] = "";
-    holder result;
-    if (std::sscanf(text.data(), "process %ld host %255s since %63s", &result.process, host,
-                    since) == 3) {
-        result.host = host;
-        result.since = since;
-    }
-    return result;
-}
-
-void write_holder(int descriptor, const std::filesystem::path& file) {
-    const std::string text =
-        "process " + std::to_string(::getpid()) + " host " + host_name() + " since " + now() + "\n";
-    if (::ftruncate(descriptor, 0) != 0 ||
-        ::pwrite(descriptor, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
-        throw system_error_at(file.string(), "the lock cannot be written", errno);
-    }
+std::filesystem::path lock_path(const std::filesystem::path& directory, const shard& part) {
+    if (part.is_whole()) return directory / whole_name;
+    return directory /
+           (shard_prefix + std::to_string(part.index + 1) + "_of_" + std::to_string(part.count));
 }
 
 /// True where the name still leads to the open file: its last holder may have removed it meanwhile.
@@ -74,16 +35,49 @@ bool is_in_place(int descriptor, const std::filesystem::path& file) {
            opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
 
-store_error held_by(const std::filesystem::path& file, const holder& other) {
-    return {file.parent_path().string(), "another run works here: " + other.words(),
-            "wait for it or stop it first"};
+/// \param lock_error  of flock on the file, 0 where it succeeded
+/// \return            whether the holder lives on this host, as far as one can know
+bool lives_here(const lock_holder& other, int lock_error) {
+    if (lock_error == 0) return false;
+    if (lock_error == EWOULDBLOCK) return true;
+    // Where the file system knows no locks, the process number is all there is.
+    return other.process > 0 && other.is_on_this_host() &&
+           ::kill(static_cast<pid_t>(other.process), 0) == 0;
+}
+
+bool may_live_elsewhere(const lock_holder& other) {
+    return other.process > 0 && !other.is_on_this_host() && !other.is_earlier_start_of_this_job();
+}
+
+store_error held_by(const std::filesystem::path& file, const lock_holder& other) {
+    const std::string place = file.parent_path().string();
+    if (other.process == 0 || other.is_on_this_host()) {
+        return {place, "another run works here: " + other.words(), "wait for it or stop it first"};
+    }
+    const std::string ask = other.job == "-" ? "" : "squeue -j " + other.job + " tells; ";
+    return {place, "held by " + other.words() + ", last sign of life " + age_of(file) + " ago",
+            ask + "if that run is dead, remove " + file.string()};
 }
 
 }  // namespace
 
-run_lock::run_lock(const std::filesystem::path& directory) : file_(directory / "lock") {
+bool is_shard_lock(const std::filesystem::path& file) {
+    return file.filename().string().starts_with(shard_prefix);
+}
+
+run_lock::run_lock(const std::filesystem::path& directory, const shard& part)
+    : file_(lock_path(directory, part)) {
+    take();
+    try {
+        require_no_other(part);
+    } catch (...) {
+        give_back();
+        throw;
+    }
+}
+
+void run_lock::take() {
     int descriptor = -1;
-    int lock_status = -1;
     int lock_error = 0;
     do {
         if (descriptor >= 0) ::close(descriptor);
@@ -91,37 +85,54 @@ run_lock::run_lock(const std::filesystem::path& directory) : file_(directory / "
         if (descriptor < 0) {
             throw system_error_at(file_.string(), "the lock cannot be written", errno);
         }
-        lock_status = ::flock(descriptor, LOCK_EX | LOCK_NB);
-        lock_error = errno;
-    } while (lock_status == 0 && !is_in_place(descriptor, file_));
+        lock_error = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+    } while (lock_error == 0 && !is_in_place(descriptor, file_));
 
-    const holder other = read_holder(descriptor);
-    const bool has_kernel_lock = lock_status == 0;
-    const bool is_same_host = other.host == host_name();
-    // Where the file system knows no locks, the process number is all there is.
-    const bool may_be_alive =
-        has_kernel_lock
-            ? false
-            : lock_error == EWOULDBLOCK || (other.process > 0 && is_same_host &&
-                                            ::kill(static_cast<pid_t>(other.process), 0) == 0);
-    const bool is_elsewhere = other.process > 0 && !is_same_host;
-    if (may_be_alive || is_elsewhere) {
+    const lock_holder other = lock_holder::read(descriptor);
+    if (lives_here(other, lock_error) || may_live_elsewhere(other)) {
         ::close(descriptor);
-        if (!is_elsewhere) throw held_by(file_, other);
-        throw store_error(directory.string(), "held by " + other.words(),
-                          "if that run is dead, remove " + file_.string());
+        throw held_by(file_, other);
     }
     if (other.process > 0) {
-        note_ = directory.string() + ": took over from " + other.words() + ", which runs no longer";
+        note_ = file_.parent_path().string() + ": took over from " + other.words() +
+                ", which runs no longer";
+    }
+    const std::string text = lock_holder::this_process().line();
+    if (::ftruncate(descriptor, 0) != 0 ||
+        ::pwrite(descriptor, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
+        const int error = errno;
+        ::close(descriptor);
+        throw system_error_at(file_.string(), "the lock cannot be written", error);
     }
     descriptor_ = descriptor;
-    write_holder(descriptor, file_);
 }
 
-run_lock::~run_lock() {
+/// Everyone takes his own lock first and then looks at the others', so that of two runs at least
+/// one sees the other.
+void run_lock::require_no_other(const shard& part) const {
+    std::error_code error;
+    for (std::filesystem::directory_iterator each(file_.parent_path(), error), end;
+         !error && each != end; each.increment(error)) {
+        const std::filesystem::path& file = each->path();
+        const bool excludes = part.is_whole() ? is_shard_lock(file) : file.filename() == whole_name;
+        if (!excludes) continue;
+        const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+        if (descriptor < 0) continue;  // just given back
+        const int lock_error = ::flock(descriptor, LOCK_SH | LOCK_NB) == 0 ? 0 : errno;
+        const lock_holder other = lock_holder::read(descriptor);
+        ::close(descriptor);
+        if (lives_here(other, lock_error) || may_live_elsewhere(other)) throw held_by(file, other);
+    }
+}
+
+void run_lock::touch() const { ::futimens(descriptor_, nullptr); }
+
+void run_lock::give_back() {
     if (descriptor_ < 0) return;
     ::unlink(file_.c_str());
-    ::close(descriptor_);
+    ::close(std::exchange(descriptor_, -1));
 }
+
+run_lock::~run_lock() { give_back(); }
 
 }  // namespace hopscotch
