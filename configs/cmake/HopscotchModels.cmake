@@ -1,6 +1,6 @@
 # Turns model headers into instantiation units: for a header NAME.hpp, which defines the model
 # `hopscotch::NAME`, one object per target, one for the other arithmetics, one entry; and a registry of
-# all entries. Installed with the package, so that a user's own model is built the same way.
+# all entries. Where CUDA is in use, also the kernels for GPUs. Installed with the package, so that a user's own model is built the same way.
 get_filename_component(HOPSCOTCH_UNITS ${CMAKE_CURRENT_LIST_DIR}/../../kernels/ensemble/units ABSOLUTE)
 if(NOT EXISTS ${HOPSCOTCH_UNITS})
     set(HOPSCOTCH_UNITS ${CMAKE_CURRENT_LIST_DIR}/units)
@@ -30,6 +30,7 @@ function(hopscotch_add_models library)
             set_source_files_properties(${unit} ${tangent_unit} PROPERTIES COMPILE_DEFINITIONS
                     "HOPSCOTCH_TARGET=${target};HOPSCOTCH_REGISTERS=${HOPSCOTCH_REGISTERS_${target}}")
         endforeach()
+        hopscotch_add_gpu_units(${library} ${model} ${model_header} ${folder})
         foreach(unit entry orbits)
             configure_file(${HOPSCOTCH_UNITS}/${unit}.cpp.in ${folder}/${unit}.cpp @ONLY)
             target_sources(${library} PRIVATE ${folder}/${unit}.cpp)
@@ -47,6 +48,27 @@ function(hopscotch_add_models library)
     configure_file(${HOPSCOTCH_UNITS}/registry.cpp.in
         ${CMAKE_CURRENT_BINARY_DIR}/units/registry.cpp @ONLY)
     target_sources(${library} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/units/registry.cpp)
+endfunction()
+
+# A model's kernels for GPUs; the entry unit is told through these two variables.
+function(hopscotch_add_gpu_units library model model_header folder)
+    set(gpu_declarations "")
+    set(gpu_tables "")
+    foreach(kind kernels tangents)
+        if(NOT HOPSCOTCH_HAS_CUDA)
+            break()
+        endif()
+        set(unit ${folder}/cuda_${kind}.cu)
+        configure_file(${HOPSCOTCH_UNITS}/cuda_${kind}.cu.in ${unit} @ONLY)
+        target_sources(${library} PRIVATE ${unit})
+        set_source_files_properties(${unit} PROPERTIES COMPILE_DEFINITIONS HOPSCOTCH_TARGET=cuda
+            COMPILE_OPTIONS "${HOPSCOTCH_CUDA_FLAGS}")
+        string(APPEND gpu_declarations "extern const ensemble_function* const ${model}_cuda_${kind};\n")
+        string(APPEND gpu_tables
+            "    entry.${kind}[static_cast<int>(backend::cuda)] = &${model}_cuda_${kind};\n")
+    endforeach()
+    set(gpu_declarations "${gpu_declarations}" PARENT_SCOPE)
+    set(gpu_tables "${gpu_tables}" PARENT_SCOPE)
 endfunction()
 
 # A program with every command of Hopscotch that knows the models in the headers given as well as the

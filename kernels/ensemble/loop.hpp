@@ -1,5 +1,6 @@
 // The ensemble loop: advances trajectories until they are decided and writes out their results;
-// refill.hpp keeps the lanes full. The same functions, with one lane, are what a CUDA thread runs.
+// refill.hpp keeps the lanes full. The same functions, over cuda/persistent_lane.hpp, are what a
+// GPU thread runs.
 #pragma once
 
 #include "kernels/ensemble/refill.hpp"
@@ -19,11 +20,13 @@ struct trajectory {
     static constexpr int n_parameter_fields = parameter_fields_of<Model>;
 };
 
-template <class Model, int Variant, class Real>
-class ensemble : public refilled_lanes<ensemble<Model, Variant, Real>,
-                                       trajectory<Model, Variant, Real>, Real> {
-    using lanes = refilled_lanes<ensemble, trajectory<Model, Variant, Real>, Real>;
+/// \tparam Lanes  who keeps the lanes full, see refill.hpp
+template <class Model, int Variant, class Real,
+          template <class, class, class> class Lanes = refilled_lanes>
+class ensemble
+    : public Lanes<ensemble<Model, Variant, Real, Lanes>, trajectory<Model, Variant, Real>, Real> {
     using state = trajectory<Model, Variant, Real>;
+    using lanes = Lanes<ensemble, state, Real>;
 
 public:
     using lanes::lanes;

@@ -21,6 +21,17 @@ constexpr int n_directions() {
     return static_cast<int>(most);
 }
 
+/// Columns of each section of a model: device code cannot read the description itself.
+template <class Model>
+struct section_sizes {
+    int n_columns[Model::info.sections.size()] = {};
+
+    constexpr section_sizes() {
+        for (std::size_t s = 0; s < std::size(n_columns); ++s)
+            n_columns[s] = static_cast<int>(Model::info.sections[s].columns.size());
+    }
+};
+
 template <class Model, int Variant, class Real>
 struct tangent_trajectory {
     static constexpr int n = n_directions<Model>();
@@ -32,11 +43,13 @@ struct tangent_trajectory {
     Real busy;     // 1 while the lane holds an unfinished trajectory
 };
 
-template <class Model, int Variant, class Real>
-class tangent_ensemble : public refilled_lanes<tangent_ensemble<Model, Variant, Real>,
-                                               tangent_trajectory<Model, Variant, Real>, Real> {
-    using lanes = refilled_lanes<tangent_ensemble, tangent_trajectory<Model, Variant, Real>, Real>;
+/// \tparam Lanes  who keeps the lanes full, see refill.hpp
+template <class Model, int Variant, class Real,
+          template <class, class, class> class Lanes = refilled_lanes>
+class tangent_ensemble : public Lanes<tangent_ensemble<Model, Variant, Real, Lanes>,
+                                      tangent_trajectory<Model, Variant, Real>, Real> {
     using state = tangent_trajectory<Model, Variant, Real>;
+    using lanes = Lanes<tangent_ensemble, state, Real>;
     static constexpr int n = state::n;
     using number = dual<Real, n>;
     using space = tangent_space<Model, Variant, Real, n>;
@@ -149,9 +162,10 @@ private:
 
     /// Has a direction of the section been lost on the way (at a critical point, say)?
     HOPSCOTCH_DEVICE mask_of<Real> has_vanished(const Real (&sizes)[n]) const {
-        const auto& section = Model::info.sections[static_cast<std::size_t>(request_.end_section)];
+        constexpr section_sizes<Model> of;
+        const int n_columns = of.n_columns[request_.end_section];
         mask_of<Real> vanished = sizes[0] == Real(0.0);
-        for (int k = 1; k < n && k < static_cast<int>(section.columns.size()); ++k) {
+        for (int k = 1; k < n && k < n_columns; ++k) {
             vanished = vanished | (sizes[k] == Real(0.0));
         }
         return vanished;

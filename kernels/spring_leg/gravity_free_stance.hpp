@@ -190,10 +190,10 @@ HOPSCOTCH_DEVICE inline sweep<Real> linear_sweep(const impact_angle<Real>& alpha
         expm1(u_end)};
     sweep<Real> result;
     if constexpr (lane_traits<Real>::rounding > 0x1p-60) {
-        result = gauss_sum(integrand, u_end, legendre_16);
+        result = gauss_sum(integrand, u_end, legendre_16());
         const mask_of<Real> deep = wanted & (turn.length < Real(0.05));
         if (any(deep)) {
-            const sweep<Real> finer = gauss_sum(integrand, u_end, legendre_32);
+            const sweep<Real> finer = gauss_sum(integrand, u_end, legendre_32());
             result = {select_form(deep, finer.angle, result.angle),
                       select_form(deep, finer.duration, result.duration)};
         }

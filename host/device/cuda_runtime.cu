@@ -1,0 +1,138 @@
+// CUDA's runtime behind the host's interface. Every call is checked, and an error names the call.
+#include "host/device/devices.hpp"
+#include "host/run/device_error.hpp"
+
+#include <cuda_runtime_api.h>
+
+#include <algorithm>
+#include <string>
+
+namespace hopscotch {
+namespace {
+
+void require(cudaError_t status, const char* call) {
+    if (status == cudaSuccess) return;
+    cudaGetLastError();  // an error that the next call could survive is told once
+    throw device_error(std::string(call) + " (" + cudaGetErrorName(status) + ": " +
+                       cudaGetErrorString(status) + "); --backend auto?");
+}
+
+int attribute(cudaDeviceAttr which, int device) {
+    int value = 0;
+    require(cudaDeviceGetAttribute(&value, which, device), "cudaDeviceGetAttribute");
+    return value;
+}
+
+cudaStream_t stream_of(device_stream stream) { return static_cast<cudaStream_t>(stream); }
+
+class cuda_runtime final : public device_runtime {
+public:
+    int n_devices() override {
+        int n = 0;
+        const cudaError_t status = cudaGetDeviceCount(&n);
+        if (status == cudaErrorNoDevice) return 0;
+        require(status, "cudaGetDeviceCount");
+        return n;
+    }
+
+    device_description describe(int device) override {
+        select(device);
+        cudaDeviceProp properties{};
+        require(cudaGetDeviceProperties(&properties, device), "cudaGetDeviceProperties");
+        device_description result;
+        result.name = properties.name;
+        require(cudaMemGetInfo(&result.free_bytes, &result.total_bytes), "cudaMemGetInfo");
+        result.n_multiprocessors = properties.multiProcessorCount;
+        result.clock_hertz = 1e3 * attribute(cudaDevAttrClockRate, device);
+        // cores for single precision: 64 in compute capability 8.0, 128 in all later ones
+        const int single = properties.major == 8 && properties.minor == 0 ? 64 : 128;
+        result.binary64_per_multiprocessor =
+            single / attribute(cudaDevAttrSingleToDoublePrecisionPerfRatio, device);
+        return result;
+    }
+
+    std::byte* allocate(int device, std::size_t bytes) override {
+        select(device);
+        void* memory = nullptr;
+        require(cudaMalloc(&memory, bytes), "cudaMalloc");
+        return static_cast<std::byte*>(memory);
+    }
+    void release(int device, std::byte* memory) noexcept override {
+        cudaSetDevice(device);
+        cudaFree(memory);
+    }
+    std::byte* allocate_pinned(int device, std::size_t bytes) override {
+        select(device);
+        void* memory = nullptr;
+        require(cudaHostAlloc(&memory, bytes, cudaHostAllocPortable), "cudaHostAlloc");
+        return static_cast<std::byte*>(memory);
+    }
+    void release_pinned(std::byte* memory) noexcept override { cudaFreeHost(memory); }
+
+    device_stream open_stream(int device) override {
+        select(device);
+        cudaStream_t stream = nullptr;
+        require(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking),
+                "cudaStreamCreateWithFlags");
+        return stream;
+    }
+    void close_stream(int device, device_stream stream) noexcept override {
+        cudaSetDevice(device);
+        cudaStreamDestroy(stream_of(stream));
+    }
+
+    void copy_to_device(int device, device_stream stream, std::byte* to, const std::byte* from,
+                        std::size_t bytes) override {
+        select(device);
+        require(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_of(stream)),
+                "cudaMemcpyAsync to the device");
+    }
+    void copy_to_host(int device, device_stream stream, std::byte* to, const std::byte* from,
+                      std::size_t bytes) override {
+        select(device);
+        require(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream_of(stream)),
+                "cudaMemcpyAsync to the host");
+    }
+    void clear(int device, device_stream stream, std::byte* memory, std::size_t bytes) override {
+        select(device);
+        require(cudaMemsetAsync(memory, 0, bytes, stream_of(stream)), "cudaMemsetAsync");
+    }
+
+    /// As many threads as stay resident, no more than there are cells: they draw cells until none
+    /// is left.
+    void launch(int device, device_stream stream, const device_kernel& kernel,
+                const device_work& work) override {
+        select(device);
+        int resident = 0;
+        require(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&resident, kernel.function,
+                                                              kernel.threads_per_block, 0),
+                "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
+        const auto most =
+            static_cast<std::uint64_t>(resident) *
+            static_cast<std::uint64_t>(attribute(cudaDevAttrMultiProcessorCount, device));
+        const auto threads = static_cast<std::uint64_t>(kernel.threads_per_block);
+        const std::uint64_t blocks = std::min(most, (work.n_cells + threads - 1) / threads);
+        void* arguments[] = {const_cast<device_work*>(&work)};
+        require(
+            cudaLaunchKernel(kernel.function, dim3(static_cast<unsigned>(blocks)),
+                             dim3(static_cast<unsigned>(threads)), arguments, 0, stream_of(stream)),
+            "cudaLaunchKernel");
+    }
+
+    void wait(int device, device_stream stream) override {
+        select(device);
+        require(cudaStreamSynchronize(stream_of(stream)), "cudaStreamSynchronize");
+    }
+
+private:
+    static void select(int device) { require(cudaSetDevice(device), "cudaSetDevice"); }
+};
+
+}  // namespace
+
+device_runtime& cuda_devices() {
+    static cuda_runtime runtime;
+    return runtime;
+}
+
+}  // namespace hopscotch

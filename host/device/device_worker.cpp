@@ -1,0 +1,95 @@
+// Copies in, launches, copies out.
+#include "host/device/device_worker.hpp"
+
+#include "host/run/device_error.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace hopscotch {
+namespace {
+
+constexpr std::size_t counter_bytes = 256;  // device_counters, and the alignment of what follows
+static_assert(sizeof(device_counters) <= counter_bytes);
+
+}  // namespace
+
+device_worker::device_worker(device_runtime& runtime, int device, std::size_t most_bytes)
+    : runtime_(runtime),
+      device_(device),
+      most_bytes_(most_bytes),
+      stream_(runtime.open_stream(device)) {}
+
+device_worker::~device_worker() {
+    abandon();
+    release();
+    runtime_.close_stream(device_, stream_);
+}
+
+void device_worker::release() noexcept {
+    if (memory_.device != nullptr) runtime_.release(device_, memory_.device);
+    if (memory_.pinned != nullptr) runtime_.release_pinned(memory_.pinned);
+    memory_ = {};
+}
+
+void device_worker::grow(std::size_t bytes) {
+    if (bytes <= memory_.bytes) return;
+    release();
+    // room to spare, so that pieces a little larger do not allocate again
+    const std::size_t wanted = std::max(bytes, std::min(bytes + bytes / 2, most_bytes_));
+    memory_.device = runtime_.allocate(device_, wanted);
+    memory_.pinned = runtime_.allocate_pinned(device_, wanted);
+    memory_.bytes = wanted;
+}
+
+std::uint64_t device_worker::most_cells(const device_layout& layout) const {
+    const std::size_t taken = counter_bytes + layout.table_bytes();
+    const std::uint64_t n = taken < most_bytes_ ? layout.cells_within(most_bytes_ - taken) : 0;
+    if (n > 0) return n;
+    throw device_error(
+        fmt::format("device {} (its tables of {} bytes do not fit into the {} bytes that a worker "
+                    "may take); --backend auto?",
+                    device_, layout.table_bytes(), most_bytes_));
+}
+
+void device_worker::begin(const device_kernel& kernel, const device_layout& layout,
+                          cell_piece piece) {
+    const std::size_t layers_at = counter_bytes + layout.table_bytes();
+    const std::size_t layer_bytes = layout.layer_bytes(piece.n);
+    grow(layers_at + layer_bytes);
+    piece_ = piece;
+    layout.put_tables(memory_.pinned + counter_bytes);
+    runtime_.clear(device_, stream_, memory_.device, counter_bytes);
+    runtime_.copy_to_device(device_, stream_, memory_.device + counter_bytes,
+                            memory_.pinned + counter_bytes, layout.table_bytes());
+    device_work work;
+    work.request =
+        layout.on_device(memory_.device + counter_bytes, memory_.device + layers_at, piece);
+    work.first_cell = piece.first;
+    work.n_cells = piece.n;
+    work.counters = reinterpret_cast<device_counters*>(memory_.device);
+    runtime_.launch(device_, stream_, kernel, work);
+    runtime_.copy_to_host(device_, stream_, memory_.pinned, memory_.device,
+                          sizeof(device_counters));
+    runtime_.copy_to_host(device_, stream_, memory_.pinned + layers_at, memory_.device + layers_at,
+                          layer_bytes);
+}
+
+lane_statistics device_worker::finish(const device_layout& layout) {
+    runtime_.wait(device_, stream_);
+    layout.take_layers(memory_.pinned + counter_bytes + layout.table_bytes(), piece_);
+    device_counters counters;
+    std::memcpy(&counters, memory_.pinned, sizeof counters);
+    return {counters.issued, counters.useful};
+}
+
+void device_worker::abandon() noexcept {
+    try {
+        runtime_.wait(device_, stream_);
+    } catch (const device_error&) {  // it is told already, or nobody is left to hear it
+    }
+}
+
+}  // namespace hopscotch

@@ -1,0 +1,32 @@
+// One pool for the whole process, made by the first request.
+#include "host/device/devices.hpp"
+
+#include "host/run/device_error.hpp"
+
+namespace hopscotch {
+namespace {
+
+/// Never destroyed: at the end of the process the driver may be gone before it, and the system
+/// takes the memory back.
+device_pool& all_devices() {
+    static device_pool& pool = *new device_pool(cuda_devices());
+    return pool;
+}
+
+}  // namespace
+
+std::string reason_against_devices() {
+    try {
+        return cuda_devices().n_devices() > 0 ? "" : "there is no CUDA device";
+    } catch (const device_error& error) {
+        return error.what();
+    }
+}
+
+std::string device_names() { return all_devices().names(); }
+
+lane_statistics run_on_devices(const device_kernel& kernel, const ensemble_request& request) {
+    return all_devices().run(kernel, request);
+}
+
+}  // namespace hopscotch

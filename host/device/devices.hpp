@@ -1,0 +1,19 @@
+// The GPUs that this process can use; only in programs built with CUDA.
+#pragma once
+
+#include "host/device/device_pool.hpp"
+
+#include <string>
+
+namespace hopscotch {
+
+/// CUDA's runtime. It asks for nothing before the first call.
+device_runtime& cuda_devices();
+
+/// Why no kernel can run on a GPU here, or "".
+std::string reason_against_devices();
+
+/// "NVIDIA H200", or "2 x NVIDIA H200". \error device_error where there is none
+std::string device_names();
+
+}  // namespace hopscotch

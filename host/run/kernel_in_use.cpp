@@ -1,0 +1,36 @@
+// From the device to the processor.
+#include "host/run/kernel_in_use.hpp"
+
+#include <utility>
+
+namespace hopscotch {
+
+kernel_in_use::kernel_in_use(kernel_choice first, std::optional<kernel_choice> behind)
+    : first_(std::move(first)), behind_(std::move(behind)) {}
+
+lane_statistics kernel_in_use::run(const ensemble_request& request) {
+    if (!has_failed_) {
+        try {
+            return first_.run(request);
+        } catch (const device_error& error) {
+            if (!behind_) throw;
+            const std::lock_guard lock(mutex_);
+            if (failure_.empty()) failure_ = error.what();  // the later ones follow from it
+            has_failed_ = true;
+        }
+    }
+    return behind_->run(request);
+}
+
+std::string kernel_in_use::backends() const {
+    std::string names(name_of(first_.which));
+    if (has_failed_) names += ", " + std::string(name_of(behind_->which));
+    return names;
+}
+
+std::string kernel_in_use::failure() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
+}
+
+}  // namespace hopscotch

@@ -1,0 +1,37 @@
+// The kernel of a run. Where the user has left the choice open, a GPU comes first, and when it
+// fails the processor goes on: the bits are the same, and the map says so.
+#pragma once
+
+#include "host/run/backends.hpp"
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace hopscotch {
+
+class kernel_in_use {
+public:
+    /// \param behind  takes over for good when the first one throws a device_error
+    explicit kernel_in_use(kernel_choice first, std::optional<kernel_choice> behind = std::nullopt);
+
+    /// Thread safe. \error device_error where nothing stands behind
+    lane_statistics run(const ensemble_request& request);
+
+    const kernel_choice& first() const { return first_; }
+
+    /// "avx512", or "cuda, avx512" after a failure.
+    std::string backends() const;
+    /// What the device's runtime has said; empty where all is well.
+    std::string failure() const;
+
+private:
+    kernel_choice first_;
+    std::optional<kernel_choice> behind_;
+    std::atomic<bool> has_failed_ = false;
+    mutable std::mutex mutex_;
+    std::string failure_;
+};
+
+}  // namespace hopscotch

@@ -1,0 +1,18 @@
+// The device of the emulated kernels, and the models that have some.
+#pragma once
+
+#include "kernels/contract/entry.hpp"
+#include "kernels/cuda/device_work.hpp"
+
+#include <vector>
+
+namespace hopscotch::emulation {
+
+/// As run_on_devices, on two emulated devices.
+lane_statistics run_on_emulated_device(const device_kernel& kernel,
+                                       const ensemble_request& request);
+
+/// Every model, with its emulated kernels in the place of the GPU's.
+const std::vector<const model_entry*>& emulated_models();
+
+}  // namespace hopscotch::emulation
