@@ -23,6 +23,14 @@ std::string reason_against_devices() {
     }
 }
 
+std::string_view device_arithmetic() {
+#ifdef HOPSCOTCH_CUDA_FAST
+    return "products and sums contracted: not the bits of the other backends";
+#else
+    return "the bits of the other backends";
+#endif
+}
+
 std::string device_names() { return all_devices().names(); }
 
 lane_statistics run_on_devices(const device_kernel& kernel, const ensemble_request& request) {

@@ -4,6 +4,7 @@
 #include "host/device/device_pool.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace hopscotch {
 
@@ -12,6 +13,9 @@ device_runtime& cuda_devices();
 
 /// Why no kernel can run on a GPU here, or "".
 std::string reason_against_devices();
+
+/// Whether the kernels have been built to give the bits of the other backends, in words.
+std::string_view device_arithmetic();
 
 /// "NVIDIA H200", or "2 x NVIDIA H200". \error device_error where there is none
 std::string device_names();

@@ -28,7 +28,7 @@ std::vector<std::string> split(const std::string& text) {
 
 attribute_list attributes_of(const scene& scene, const kernel_choice& kernel) {
     const build_info& build = this_build();
-    return {{"title", scene.title},
+    attribute_list attributes{{"title", scene.title},
             {"references", scene.reference},
             {"source", fmt::format("hopscotch {} ({})", build.version, build.revision)},
             {"name", scene.name},
@@ -36,7 +36,6 @@ attribute_list attributes_of(const scene& scene, const kernel_choice& kernel) {
             {"section", std::string(scene.start_section().name)},
             {"question", scene.question.kind},
             {"precision", scene.accuracy.precision},
-            {"backend", std::string(name_of(kernel.which))},
             {"version", std::string(build.version)},
             {"revision", std::string(build.revision)},
             {"compiler", build.compiler},
@@ -44,6 +43,8 @@ attribute_list attributes_of(const scene& scene, const kernel_choice& kernel) {
             {"scene_file", scene.file},
             {"scene", scene.text},
             {"overrides", joined(scene.overrides)}};
+    for (auto& attribute : attributes_of(kernel.which)) attributes.push_back(std::move(attribute));
+    return attributes;
 }
 
 scene scene_of(const map_reader& map, std::span<const model_entry* const> models) {

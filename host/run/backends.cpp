@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #ifdef HOPSCOTCH_HAS_CUDA
-#include "kernels/cuda/devices.hpp"
+#include "host/device/devices.hpp"
 #endif
 
 namespace hopscotch {
@@ -22,7 +22,7 @@ bool runs_avx512() {
 
 std::string reason_against_gpu() {
 #ifdef HOPSCOTCH_HAS_CUDA
-    return n_cuda_devices() > 0 ? "" : "there is no CUDA device";
+    return reason_against_devices();
 #else
     return "this program is built without CUDA";
 #endif
@@ -32,13 +32,13 @@ bool is_built(const model_entry& model, backend which, kernel_kind kind) {
     return kind == kernel_kind::plain ? model.has(which) : model.has_tangent(which);
 }
 
+}  // namespace
+
 std::string reason_against(const model_entry& model, backend which, kernel_kind kind) {
     if (std::string reason = reason_against(which); !reason.empty()) return reason;
     if (is_built(model, which, kind)) return "";
     return fmt::format("{} is not built for it", model.info->name);
 }
-
-}  // namespace
 
 std::string reason_against(backend which) {
     switch (which) {
@@ -52,6 +52,17 @@ std::string reason_against(backend which) {
             return reason_against_gpu();
     }
     return "no such backend";
+}
+
+attribute_list attributes_of(backend which) {
+    attribute_list attributes{{"backend", std::string(name_of(which))}};
+#ifdef HOPSCOTCH_HAS_CUDA
+    if (which == backend::cuda) {
+        attributes.emplace_back("device", device_names());
+        attributes.emplace_back("device_arithmetic", std::string(device_arithmetic()));
+    }
+#endif
+    return attributes;
 }
 
 kernel_choice choose_kernel(const model_entry& model, int variant, std::string_view wanted,

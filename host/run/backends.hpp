@@ -3,6 +3,7 @@
 // can do.
 #pragma once
 
+#include "host/map/layout.hpp"
 #include "host/run/device_error.hpp"
 #include "kernels/contract/entry.hpp"
 
@@ -34,9 +35,16 @@ struct kernel_choice {
 /// Why this machine cannot run the backend, or "".
 std::string reason_against(backend which);
 
+/// Why this machine cannot run the model on the backend, or "".
+std::string reason_against(const model_entry& model, backend which, kernel_kind kind);
+
+/// What a map says of the backend that computes it: its name and, of a GPU, the device and whether
+/// its numbers have the bits of the processors'. \error device_error
+attribute_list attributes_of(backend which);
+
 /// The backend of that name; `auto` is the widest one that this processor runs and the model is
-/// built for (never the GPU: it is asked for by name). \error device_error naming what is missing
-/// and what can be had instead
+/// built for (never the GPU; whole maps are given to it by kernel_in_use.hpp). \error device_error
+/// naming what is missing and what can be had instead
 kernel_choice choose_kernel(const model_entry& model, int variant, std::string_view wanted,
                             kernel_kind kind = kernel_kind::plain);
 

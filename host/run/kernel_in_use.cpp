@@ -33,4 +33,14 @@ std::string kernel_in_use::failure() const {
     return failure_;
 }
 
+kernel_in_use choose_kernel_for_map(const model_entry& model, int variant, std::string_view wanted,
+                                    kernel_kind kind) {
+    kernel_choice first = choose_kernel(model, variant, wanted, kind);
+    const bool is_open = wanted.empty() || wanted == "auto";
+    if (!is_open || !reason_against(model, backend::cuda, kind).empty())
+        return kernel_in_use(std::move(first));
+    return kernel_in_use(choose_kernel(model, variant, name_of(backend::cuda), kind),
+                         std::move(first));
+}
+
 }  // namespace hopscotch

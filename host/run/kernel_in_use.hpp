@@ -34,4 +34,9 @@ private:
     std::string failure_;
 };
 
+/// The kernel for a whole map: with `auto` a GPU, where this machine has one and the model is built
+/// for it, and the processor behind it. \error device_error as choose_kernel
+kernel_in_use choose_kernel_for_map(const model_entry& model, int variant, std::string_view wanted,
+                                    kernel_kind kind);
+
 }  // namespace hopscotch

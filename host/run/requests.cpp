@@ -37,6 +37,10 @@ column_source& source_of(ensemble_request& request, const scene_axis& axis) {
                                           : request.parameters[axis.index];
 }
 
+kernel_kind kind_of(const scene& scene) {
+    return is_chaos_map(scene) ? kernel_kind::tangent : kernel_kind::plain;
+}
+
 /// One entry per run of neighbouring cells with the same parameter point.
 void add_points(cell_request& result, const scene& scene, const label_plan& plan,
                 const tile_box& box) {
@@ -74,8 +78,11 @@ int variant_of(const scene& scene) {
 }
 
 kernel_choice kernel_of(const scene& scene, std::string_view wanted_backend) {
-    const auto which = is_chaos_map(scene) ? kernel_kind::tangent : kernel_kind::plain;
-    return choose_kernel(*scene.model, variant_of(scene), wanted_backend, which);
+    return choose_kernel(*scene.model, variant_of(scene), wanted_backend, kind_of(scene));
+}
+
+kernel_in_use map_kernel_of(const scene& scene, std::string_view wanted_backend) {
+    return choose_kernel_for_map(*scene.model, variant_of(scene), wanted_backend, kind_of(scene));
 }
 
 bool is_chaos_map(const scene& scene) { return scene.question.kind == "lyapunov"; }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "host/map/layout.hpp"
-#include "host/run/backends.hpp"
+#include "host/run/kernel_in_use.hpp"
 #include "host/run/label_plan.hpp"
 #include "host/scene/scene.hpp"
 #include "kernels/ensemble/request.hpp"
@@ -26,6 +26,9 @@ int variant_of(const scene& scene);
 /// The kernel that computes the scene's map: with the tangent map where exponents are asked for.
 /// \error device_error as choose_kernel
 kernel_choice kernel_of(const scene& scene, std::string_view wanted_backend);
+
+/// The same for a whole map: with `auto` a GPU comes first. \error device_error
+kernel_in_use map_kernel_of(const scene& scene, std::string_view wanted_backend);
 
 /// Does the scene ask for Lyapunov exponents?
 bool is_chaos_map(const scene& scene);

@@ -47,6 +47,10 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
     if (hooks.audit && scene.accuracy.audit_cells > 0) report.audit = hooks.audit(scene, plan, run);
     report.hash = run.hash();
     attribute_list attributes = report.audit;
+    if (!report.device_failure.empty()) {
+        attributes.emplace_back("backend", report.backend);
+        attributes.emplace_back("device_failure", report.device_failure);
+    }
     if (!plan.searched.empty()) attributes.emplace_back(searched_cells, text_of(plan.searched));
     run.finish({attributes, report.attractors, plan.point_columns});
     report.is_finished = true;
@@ -72,14 +76,14 @@ public:
           hooks_(hooks),
           ranks_(ranks),
           stop_(choices.walltime),
-          kernel_(kernel_of(scene, choices.backend)),
+          kernel_(map_kernel_of(scene, choices.backend)),
           layout_(layout_of(scene)),
           layers_(chosen_layers(scene)),
           n_threads_(choices.n_threads > 0 ? choices.n_threads : ranks.default_threads()),
           threads_(tbb::global_control::max_allowed_parallelism,
                    static_cast<std::size_t>(n_threads_)) {
         report_.file = choices.file.empty() ? scene.output.file : choices.file;
-        report_.backend = name_of(kernel_.which);
+        report_.backend = kernel_.backends();
         report_.n_cells = layout_.n_cells();
         report_.n_tiles = choices.part.n_tiles(layout_.n_tiles());
         report_.n_ranks = ranks.size();
@@ -130,7 +134,7 @@ private:
     void open_as(run_role role) {
         run_.emplace(layout_, run_options{.map = report_.file,
                                           .fingerprint = scene_.fingerprint,
-                                          .attributes = attributes_of(scene_, kernel_),
+                                          .attributes = attributes_of(scene_, kernel_.first()),
                                           .existing = choices_.existing,
                                           .role = role,
                                           .part = choices_.part,
@@ -191,10 +195,25 @@ private:
         report_.tally += total;
         report_.seconds += stop_.elapsed() - begin;
         report_.n_missing = tiles.size() - total.tiles;
+        tell_failed_devices();
         ranks_.together([&] {
             if (ranks_.is_first() && ranks_.size() > 1) run_->rescan();
         });
         return report_.n_missing == 0;
+    }
+
+    /// A rank whose device has failed goes on with its processor. The bits are the same, but the
+    /// map says so.
+    void tell_failed_devices() {
+        const std::string failure = kernel_.failure();
+        double n_failed = 0.0;
+        for (const double each : ranks_.from_all(failure.empty() ? 0.0 : 1.0)) n_failed += each;
+        if (n_failed == 0.0 || !report_.device_failure.empty()) return;
+        report_.backend = kernel_.backends();
+        report_.device_failure =
+            failure.empty() ? fmt::format("of {} ranks other than the first", n_failed) : failure;
+        report_.notes.push_back(fmt::format("the device failed ({}): computed on by the processor",
+                                            report_.device_failure));
     }
 
     /// Searches for attractors from the cells that the first pass has left without a label. Returns
@@ -237,7 +256,7 @@ private:
     const run_hooks& hooks_;
     team& ranks_;
     stop_condition stop_;
-    kernel_choice kernel_;
+    kernel_in_use kernel_;
     map_layout layout_;
     std::vector<layer_plan> layers_;
     int n_threads_;

@@ -39,6 +39,7 @@ struct run_hooks {
 struct run_report {
     std::filesystem::path file;
     std::string backend;
+    std::string device_failure;  // of a GPU that was lost on the way; empty: none
     bool is_finished = false;
     bool is_part_done = false;  // all tiles of the shard are there
     std::uint64_t n_cells = 0;

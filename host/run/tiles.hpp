@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/map/layout.hpp"
-#include "host/run/backends.hpp"
+#include "host/run/kernel_in_use.hpp"
 #include "host/run/label_plan.hpp"
 #include "host/scene/layers.hpp"
 #include "host/scene/scene.hpp"
@@ -17,7 +17,7 @@ struct tile_job {
     const label_plan& plan;
     const map_layout& layout;
     const std::vector<layer_plan>& layers;
-    kernel_choice kernel;
+    kernel_in_use& kernel;
 };
 
 struct tile_result {
