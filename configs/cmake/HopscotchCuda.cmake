@@ -48,7 +48,7 @@ endif()
 function(hopscotch_add_cuda target)
     if(HOPSCOTCH_HAS_CUDA)
         target_sources(${target} PRIVATE host/device/cuda_runtime.cu host/device/devices.cu)
-        target_compile_definitions(${target} PUBLIC HOPSCOTCH_HAS_CUDA)
+        set_property(SOURCE host/run/backends.cpp APPEND PROPERTY COMPILE_DEFINITIONS HOPSCOTCH_HAS_CUDA)
         target_link_libraries(${target} PUBLIC CUDA::cudart_static)
         if(HOPSCOTCH_CUDA_FAST)
             set_source_files_properties(host/device/devices.cu PROPERTIES

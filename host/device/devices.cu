@@ -27,7 +27,7 @@ std::string_view device_arithmetic() {
 #ifdef HOPSCOTCH_CUDA_FAST
     return "products and sums contracted: not the bits of the other backends";
 #else
-    return "the bits of the other backends";
+    return bits_of_the_others;
 #endif
 }
 

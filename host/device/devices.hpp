@@ -14,7 +14,9 @@ device_runtime& cuda_devices();
 /// Why no kernel can run on a GPU here, or "".
 std::string reason_against_devices();
 
-/// Whether the kernels have been built to give the bits of the other backends, in words.
+inline constexpr std::string_view bits_of_the_others = "the bits of the other backends";
+
+/// `bits_of_the_others`, or in a fast build what the numbers are instead.
 std::string_view device_arithmetic();
 
 /// "NVIDIA H200", or "2 x NVIDIA H200". \error device_error where there is none

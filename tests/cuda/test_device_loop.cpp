@@ -1,110 +1,20 @@
-// The GPU's ensemble loop, for every model, section, choice of options and variant: 32 threads that
-// draw cells and vote give the bits of one double after the other. What runs is the source that
-// nvcc compiles, over emulated warps, and the host's part of the backend with its copies and
-// pieces.
+// The GPU's ensemble loop without a GPU: 32 threads that draw cells and vote give the bits of one
+// double after the other. What runs is the source that nvcc compiles, over emulated warps, and the
+// host's part of the backend with its copies and pieces.
 #include "tests/cuda/emulated_device.hpp"
-#include "tests/models/every_model.hpp"
-
-#include <gtest/gtest.h>
-
-#include <set>
+#include "tests/cuda/loop_identity.hpp"
 
 namespace hopscotch {
 namespace {
 
-using namespace every_model;
-
-constexpr std::size_t n_rows = 320;
-
-/// Every variant that these rows may be computed by: the one that serves them all, and with and
-/// without times those that rows would get alone.
-std::set<int> variants_of(const rows& of) { return {variant_of(of, true), variant_of(of, false)}; }
-
-class device_loop : public testing::TestWithParam<const model_entry*> {
-protected:
-    const model_entry& model = *GetParam();
-};
+class device_loop : public testing::TestWithParam<const model_entry*> {};
 
 TEST_P(device_loop, emulated_warps_give_the_bits_of_one_double_after_the_other) {
-    for (int section = 0; section < static_cast<int>(model.info->sections.size()); ++section) {
-        std::uint64_t seed = 4000;
-        for (const std::vector<int>& options : all_options(*model.info)) {
-            rows of = random_rows(model, section, options, n_rows, ++seed);
-            for (const int variant : variants_of(of)) {
-                for (const decision by : {decision::returns, decision::certificate}) {
-                    if (by == decision::certificate && model.certificate_covers == nullptr)
-                        continue;
-                    of.decided_by = by;
-                    const answers want = run(of, backend::scalar, variant);
-                    const answers got = run(of, backend::cuda, variant);
-                    for (std::size_t i = 0; i < of.size(); ++i) {
-                        ASSERT_EQ(got.bits(i), want.bits(i))
-                            << "variant " << variant << ", " << describe(of, i);
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Exponents and ends of a model's default parameters over starts of its first section.
-struct exponents {
-    std::vector<std::vector<double>> layers;
-    std::vector<std::uint8_t> motion, end;
-
-    std::vector<std::uint64_t> bits(std::size_t i) const {
-        std::vector<std::uint64_t> all{motion[i], end[i]};
-        for (const auto& layer : layers) {
-            all.push_back(
-                std::bit_cast<std::uint64_t>(layer[i] == layer[i] ? layer[i] : not_given));
-        }
-        return all;
-    }
-};
-
-exponents exponents_of(const rows& of, backend which) {
-    const std::size_t n = of.size();
-    exponents result;
-    result.layers.assign(of.ends_on().columns.size() + 2, std::vector<double>(n));
-    result.motion.resize(n), result.end.resize(n);
-    ensemble_request request;
-    request.n_cells = n;
-    request.section = of.section;
-    for (std::size_t c = 0; c < of.columns.size(); ++c) {
-        request.columns[c] = {of.columns[c].data(), 1, n};
-    }
-    for (std::size_t p = 0; p < of.parameters.size(); ++p) {
-        request.parameters[p] = {of.parameters[p].data(), 1, n};
-    }
-    for (std::size_t o = 0; o < of.options.size(); ++o) request.options[o] = of.options[o];
-    request.max_returns = 40;
-    request.max_steps = 400.0;
-    request.exponents.transient = 5;
-    request.exponents.block = 5;
-    request.exponents.least_blocks = 3;
-    request.exponents.error = 1e-3;
-    std::size_t k = 0;
-    for (; k < of.ends_on().columns.size(); ++k) {
-        request.exponents.exponents[k] = result.layers[k].data();
-    }
-    request.exponents.rate = result.layers[k++].data();
-    request.exponents.standard_error = result.layers[k].data();
-    request.exponents.motion = result.motion.data();
-    request.outcome = result.end.data();
-    of.model->tangent(which, variant_of(of))(request);
-    return result;
+    loop_identity::expect_same_returns(*GetParam(), 320);
 }
 
 TEST_P(device_loop, emulated_warps_give_the_exponents_of_one_orbit_after_the_other) {
-    std::uint64_t seed = 5000;
-    for (const std::vector<int>& options : all_options(*model.info)) {
-        const rows of = random_rows(model, 0, options, 96, ++seed);
-        const exponents want = exponents_of(of, backend::scalar);
-        const exponents got = exponents_of(of, backend::cuda);
-        for (std::size_t i = 0; i < of.size(); ++i) {
-            ASSERT_EQ(got.bits(i), want.bits(i)) << describe(of, i);
-        }
-    }
+    loop_identity::expect_same_exponents(*GetParam(), 96);
 }
 
 INSTANTIATE_TEST_SUITE_P(all, device_loop, testing::ValuesIn(emulation::emulated_models()),
