@@ -15,7 +15,6 @@ claim_contains "and the closest option is named" "--threads?" err.txt
 claim_exit "an unknown model is usage" 2 hopscotch models passive_hoper
 claim_contains "and the closest model is named" "passive_hopper?" err.txt
 claim_exit "a walltime that is none is usage" 2 hopscotch run "$scene" --walltime soon
-claim_exit "a command of a later version is usage" 2 hopscotch merge
 
 claim_exit "a missing scene is bad input" 3 hopscotch run none.toml
 claim_exit "a bad override is bad input" 3 hopscotch run "$scene" grid.axis.0.cells=0
