@@ -25,6 +25,7 @@ struct run_arguments {
     bool is_resumed = false;
     bool is_forced = false;
     bool is_dry = false;
+    bool keeps_tiles = false;
     bool is_quiet = false;
     std::string walltime;
     std::string shard;
@@ -35,6 +36,7 @@ run_choices choices_of(const run_arguments& given) {
     choices.file = given.file;
     choices.backend = given.backend;
     choices.n_threads = given.n_threads;
+    choices.keeps_tiles = given.keeps_tiles;
     choices.is_quiet = given.is_quiet;
     if (given.is_forced) choices.existing = if_exists::replace;
     if (given.is_resumed) choices.existing = if_exists::resume;
@@ -85,6 +87,8 @@ void add_run(CLI::App& program, int& exit_code) {
     command->add_flag("--force", given->is_forced, "Replace an existing map")->excludes(resume);
     command->add_flag("--dry-run", given->is_dry,
                       "Say cells, bytes, memory and time; compute nothing");
+    command->add_flag("--keep-tiles", given->keeps_tiles,
+                      "The map file refers to the tile files instead of holding them");
     command->add_option("--walltime", given->walltime,
                         "H:MM:SS after which the run stops, resumable");
     command->add_option("--shard", given->shard,

@@ -275,7 +275,8 @@ run_report run_diagram(const scene& scene, const run_choices& choices) {
     map_run run(layout, {.map = report.file,
                          .fingerprint = scene.fingerprint,
                          .attributes = attributes_of(scene, kernel),
-                         .existing = choices.existing});
+                         .existing = choices.existing,
+                         .keeps_tiles = choices.keeps_tiles});
     report.notes = run.notes();
     report.is_finished = run.complete();
     if (report.is_finished) return report;

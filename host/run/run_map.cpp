@@ -138,7 +138,8 @@ private:
                                           .existing = choices_.existing,
                                           .role = role,
                                           .part = choices_.part,
-                                          .adopted = choices_.adopted});
+                                          .adopted = choices_.adopted,
+                                          .keeps_tiles = choices_.keeps_tiles});
         report_.notes = run_->notes();
     }
 

@@ -22,6 +22,7 @@ struct run_choices {
     int n_threads = 0;  // 0: as many as the machine has
     if_exists existing = if_exists::refuse;
     std::optional<double> walltime;  // seconds
+    bool keeps_tiles = false;        // the map file refers to tile files
     bool is_quiet = false;
     shard part{};                                  // compute these tiles only, and pack nothing
     bool is_merge = false;                         // compute no missing tiles: all must be there

@@ -19,13 +19,6 @@ hdf5_handle ordered_group(hid_t property_class) {
     return hdf5_handle(list);
 }
 
-hdf5_handle dataset_properties() {
-    const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
-    H5Pset_obj_track_times(list, false);
-    H5Pset_attr_creation_order(list, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    return hdf5_handle(list);
-}
-
 hdf5_handle access_properties() {
     const hid_t list = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_fclose_degree(list, H5F_CLOSE_STRONG);
@@ -42,6 +35,16 @@ hdf5_file hdf5_file::create(const std::filesystem::path& path) {
     const hdf5_handle creation = ordered_group(H5P_FILE_CREATE);
     const hdf5_handle access = access_properties();
     H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);  // what netCDF-4 reads
+    hdf5_file file(hdf5_handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id())),
+                   path.string());
+    if (!file.file_) file.fail("cannot be made");
+    return file;
+}
+
+hdf5_file hdf5_file::create_virtual(const std::filesystem::path& path) {
+    const hdf5_handle creation = ordered_group(H5P_FILE_CREATE);
+    const hdf5_handle access = access_properties();
+    H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V110);
     hdf5_file file(hdf5_handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id())),
                    path.string());
     if (!file.file_) file.fail("cannot be made");

@@ -30,6 +30,25 @@ struct chunked_dataset {
     int level = 4;  // of deflate, as a note to other writers
 };
 
+/// A rectangle of a virtual dataset that lies in a dataset of another file.
+struct virtual_part {
+    std::string file;  // relative to the folder of the virtual file, so that both can be moved
+    std::string dataset;
+    std::vector<std::uint64_t> origin;  // in the virtual dataset
+    std::vector<std::uint64_t> extent;
+    std::vector<std::uint64_t> source_shape;  // of the other dataset
+    std::vector<std::uint64_t>
+        source_extent;  // from its first corner on; as many cells as `extent`
+};
+
+/// A dataset whose numbers lie in other files; where one of them is missing, it reads as `fill`.
+struct virtual_dataset {
+    hdf5_type type = hdf5_type::float64;
+    std::vector<std::uint64_t> shape;
+    double fill = 0.0;
+    std::vector<virtual_part> parts;
+};
+
 /// Numbers of the given type in an attribute; text attributes are plain strings.
 struct typed_numbers {
     hdf5_type type = hdf5_type::float64;
@@ -41,6 +60,8 @@ public:
     using shape_type = std::vector<std::uint64_t>;
 
     static hdf5_file create(const std::filesystem::path& path);  // replaces an existing file
+    /// May hold virtual datasets, which readers older than HDF5 1.10 do not know.
+    static hdf5_file create_virtual(const std::filesystem::path& path);
     static hdf5_file create_in_memory(const std::string& place);
     static hdf5_file open(const std::filesystem::path& path);  // to read
     static hdf5_file open_image(std::span<const std::byte> image, const std::string& place);
@@ -63,6 +84,9 @@ public:
     std::vector<std::string> members(const std::string& group) const;  // in order of creation
 
     void make_dataset(const std::string& path, const chunked_dataset& dataset);
+    void make_dataset(const std::string& path, const virtual_dataset& dataset);
+    bool is_virtual(const std::string& path) const;
+    void let_go(const std::string& path);  // of a dataset that was used and needs much memory
     void write_chunk(const std::string& path, const shape_type& origin,
                      std::span<const std::byte> bytes);
     bool has_chunk(const std::string& path, const shape_type& origin) const;

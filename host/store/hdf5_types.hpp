@@ -1,5 +1,5 @@
 // How our types look to HDF5: in files little-endian, in memory as the machine has them. Only for
-// the two files that implement hdf5_file.
+// the files that implement hdf5_file.
 #pragma once
 
 #include "host/store/hdf5_file.hpp"
@@ -47,6 +47,14 @@ inline hdf5_handle text_type(std::size_t length) {
     H5Tset_strpad(type, H5T_STR_NULLTERM);
     H5Tset_cset(type, H5T_CSET_UTF8);
     return hdf5_handle(type);
+}
+
+/// Of every dataset. No time stamps: the same data give the same file.
+inline hdf5_handle dataset_properties() {
+    const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(list, false);
+    H5Pset_attr_creation_order(list, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    return hdf5_handle(list);
 }
 
 inline hdf5_handle space_of(const hdf5_file::shape_type& shape) {

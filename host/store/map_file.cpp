@@ -1,5 +1,7 @@
 #include "host/store/map_file.hpp"
 
+#include "host/store/tile_file.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <set>
@@ -68,16 +70,29 @@ void write_flags(hdf5_file& file, const layer& each, const std::vector<attractor
     }
 }
 
+void make_layer(hdf5_file& file, const map_description& map, const layer& each) {
+    std::vector<std::uint64_t> shape;
+    for (const axis& along : map.layout.axes) shape.push_back(along.size());
+    const hdf5_type type = stored_as(each.type);
+    if (map.tile_directory.empty()) {
+        file.make_dataset(each.name,
+                          chunked_dataset{type, shape, full_tile(map.layout), each.fill});
+    } else {
+        file.make_dataset(each.name,
+                          virtual_dataset{type, shape, each.fill,
+                                          parts_of(map.layout, map.tile_directory, each.name)});
+    }
+}
+
 void write_layer(hdf5_file& file, const map_description& map, const layer& each) {
-    chunked_dataset dataset{stored_as(each.type), {}, full_tile(map.layout), each.fill};
-    for (const axis& along : map.layout.axes) dataset.shape.push_back(along.size());
-    file.make_dataset(each.name, dataset);
+    make_layer(file, map, each);
     for (unsigned i = 0; i < map.layout.axes.size(); ++i) {
         file.attach_scale(each.name, map.layout.axes[i].name, i);
     }
     describe(file, each.name, each.unit, each.long_name);
-    file.set_attribute(each.name, "_FillValue", typed_numbers{dataset.type, {each.fill}});
+    file.set_attribute(each.name, "_FillValue", typed_numbers{stored_as(each.type), {each.fill}});
     if (!each.flags.empty()) write_flags(file, each, map.attractors);
+    if (!map.tile_directory.empty()) file.let_go(each.name);
 }
 
 std::string optional_text(hdf5_file& file, const std::string& object, const std::string& name) {
@@ -127,6 +142,18 @@ layer read_layer(hdf5_file& file, const std::string& name) {
         }
     }
     return result;
+}
+
+/// Of virtual layers: where the tile files lie, and their shape, which is the first one's.
+void read_tile_files(hdf5_file& file, map_description& map) {
+    if (!file.has("/tiles")) {
+        throw store_error(file.place(), "its layers are virtual, but no map of tile files",
+                          "open one of the files it refers to");
+    }
+    map.tile_directory = file.attribute_text("/tiles", "directory");
+    const std::vector<std::uint64_t> extents = file.read_words("/tiles/extent");
+    const auto rank = static_cast<std::ptrdiff_t>(map.layout.axes.size());
+    map.layout.tile.assign(extents.begin(), extents.begin() + rank);
 }
 
 /// Attractors' names as they are, where CF's one-word meanings stand for them.
@@ -201,15 +228,17 @@ map_description read_description(hdf5_file& file) {
     for (const std::string& name : file.members("/")) {
         if (!file.is_dataset(name)) continue;
         const std::vector<std::uint64_t> chunk = file.chunk_of(name);
-        if (chunk.empty()) continue;  // an axis
+        if (chunk.empty() && !file.is_virtual(name)) continue;  // an axis
         axis_names = file.scales_of(name);
         map.layout.tile = chunk;
         map.layout.layers.push_back(read_layer(file, name));
+        if (chunk.empty()) file.let_go(name);
     }
     if (map.layout.layers.empty()) {
         throw store_error(file.place(), "holds no layer of a map", "is it a map file");
     }
     for (const std::string& name : axis_names) map.layout.axes.push_back(read_axis(file, name));
+    if (map.layout.tile.empty()) read_tile_files(file, map);
     for (const std::string& name : file.attribute_names("/")) {
         if (file.is_text_attribute("/", name)) {
             map.attributes.emplace_back(name, file.attribute_text("/", name));
@@ -218,6 +247,17 @@ map_description read_description(hdf5_file& file) {
     if (file.has("/attractors")) map.attractors = read_attractors(file, map.point_columns);
     restore_label_names(map);
     return map;
+}
+
+std::vector<virtual_part> parts_of(const map_layout& layout, const std::string& tile_directory,
+                                   const std::string& layer) {
+    std::vector<virtual_part> parts;
+    for (std::uint64_t tile = 0; tile < layout.n_tiles(); ++tile) {
+        const tile_box box = box_of(layout, tile);
+        parts.push_back({tile_path(tile_directory, tile).string(), layer, box.origin, box.extent,
+                         full_tile(layout), box.extent});
+    }
+    return parts;
 }
 
 std::string attribute_of(const attribute_list& attributes, std::string_view name) {

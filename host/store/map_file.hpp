@@ -8,7 +8,8 @@
 //                 computed", flag_values + flag_meanings of categorical layers
 //   /attractors   label name period trap share colour, points(label, point, column),
 //                 multipliers(label, multiplier, part); rows of unequal length end in NaN
-//   /tiles        origin extent checksum of every tile; attribute compute_seconds
+//   /tiles        origin extent checksum of every tile; attribute compute_seconds; in a file whose
+//                 layers are virtual datasets over tile files also `directory`, where those lie
 #pragma once
 
 #include "host/map/hash.hpp"
@@ -26,6 +27,10 @@ struct map_description {
     attribute_list attributes;
     std::vector<attractor_row> attractors;
     std::vector<std::string> point_columns;
+
+    /// Where the tile files lie, relative to the map file's folder, if the layers are virtual;
+    /// empty where the map file holds the numbers itself.
+    std::string tile_directory{};
 };
 
 /// One row of the tile table.
@@ -49,8 +54,13 @@ void write_attractors(hdf5_file& file, const std::vector<attractor_row>& rows,
 std::vector<attractor_row> read_attractors(hdf5_file& file,
                                            std::vector<std::string>& point_columns);
 
-void write_tile_table(hdf5_file& file, const map_layout& layout, const std::vector<tile_row>& rows);
+void write_tile_table(hdf5_file& file, const map_description& map,
+                      const std::vector<tile_row>& rows);
 std::vector<tile_row> read_tile_table(hdf5_file& file, const map_layout& layout);
+
+/// The names of the files that virtual layers are made of, one per tile.
+std::vector<virtual_part> parts_of(const map_layout& layout, const std::string& tile_directory,
+                                   const std::string& layer);
 
 /// The value of a global attribute; empty where there is none.
 std::string attribute_of(const attribute_list& attributes, std::string_view name);

@@ -122,9 +122,11 @@ struct map_reader::implementation {
     [[noreturn]] void fail(std::uint64_t tile, const std::string& reason) const;
     std::vector<std::byte> layer_of(std::uint64_t tile, std::size_t layer);
     bool has_tile(std::uint64_t tile);
+    compressed_tile stored_tile(std::uint64_t tile);
 
     std::filesystem::path place;    // the file, or the run directory
     std::optional<hdf5_file> file;  // a finished map
+    std::filesystem::path tiles;    // folder of the tile files; empty where the file is packed
     map_description map;
     std::string fingerprint;
     std::vector<tile_row> table;      // of a finished map
@@ -139,17 +141,19 @@ map_reader::implementation::implementation(const std::filesystem::path& path) : 
     }
     if (std::filesystem::is_directory(place)) {
         map = read_run_description(place);
+        tiles = place;
     } else {
         file = hdf5_file::open(place);
         map = read_description(*file);
         table = read_tile_table(*file, map.layout);
+        if (!map.tile_directory.empty()) tiles = place.parent_path() / map.tile_directory;
     }
     fingerprint = attribute_of(map.attributes, "fingerprint");
 }
 
 std::string map_reader::implementation::place_of(std::uint64_t tile) const {
-    return file ? place.string() + ": tile " + std::to_string(tile)
-                : tile_path(place, tile).string();
+    return tiles.empty() ? place.string() + ": tile " + std::to_string(tile)
+                         : tile_path(tiles, tile).string();
 }
 
 void map_reader::implementation::fail(std::uint64_t tile, const std::string& reason) const {
@@ -157,10 +161,23 @@ void map_reader::implementation::fail(std::uint64_t tile, const std::string& rea
 }
 
 bool map_reader::implementation::has_tile(std::uint64_t tile) {
-    if (!file) return std::filesystem::exists(tile_path(place, tile));
+    if (!tiles.empty()) return std::filesystem::exists(tile_path(tiles, tile));
     const tile_box& box = table[tile].box;
     return std::all_of(map.layout.layers.begin(), map.layout.layers.end(),
                        [&](const layer& each) { return file->has_chunk(each.name, box.origin); });
+}
+
+/// A tile from its own file. Of a finished map it must still be the one that was joined to it.
+compressed_tile map_reader::implementation::stored_tile(std::uint64_t tile) {
+    if (!has_tile(tile)) {
+        throw store_error(place_of(tile), file ? "missing" : "not computed yet",
+                          file ? "run again with --resume" : "");
+    }
+    compressed_tile stored = read_tile(tiles, map.layout, fingerprint, tile);
+    if (file && stored.summary.sums != table[tile].sums) {
+        fail(tile, "not the tile that the map was made of");
+    }
+    return stored;
 }
 
 /// The checked numbers of one layer of one tile.
@@ -170,14 +187,13 @@ std::vector<std::byte> map_reader::implementation::layer_of(std::uint64_t tile, 
     const std::string& name = map.layout.layers[layer].name;
     std::vector<std::byte> chunk;
     layer_sum sum;
-    if (file) {
+    if (tiles.empty()) {
         auto stored = file->read_chunk(name, box.origin);
         if (!stored) fail(tile, "missing: layer " + name + " was never written");
         chunk = std::move(*stored);
         sum = table[tile].sums[layer];
     } else {
-        if (!has_tile(tile)) throw store_error(place_of(tile), "not computed yet", "");
-        compressed_tile stored = read_tile(place, map.layout, fingerprint, tile);
+        compressed_tile stored = stored_tile(tile);
         chunk = std::move(stored.chunks[layer]);
         sum = stored.summary.sums[layer];
     }
@@ -225,6 +241,8 @@ const std::vector<std::string>& map_reader::point_columns() const {
 
 bool map_reader::is_finished_map() const { return self_->file.has_value(); }
 
+const std::filesystem::path& map_reader::tile_directory() const { return self_->tiles; }
+
 std::vector<std::uint64_t> map_reader::missing_tiles() const {
     const hdf5_guard guard;
     std::vector<std::uint64_t> tiles;
@@ -236,9 +254,8 @@ std::vector<std::uint64_t> map_reader::missing_tiles() const {
 
 tile_data map_reader::tile(std::uint64_t index) const {
     tile_data result{box_of(layout(), index), {}};
-    if (!self_->file && self_->has_tile(index)) {  // all layers at one reading
-        return checked_tile(layout(), read_tile(self_->place, layout(), self_->fingerprint, index),
-                            self_->place_of(index));
+    if (!self_->tiles.empty()) {  // all layers at one reading
+        return checked_tile(layout(), self_->stored_tile(index), self_->place_of(index));
     }
     for (std::size_t i = 0; i < layout().layers.size(); ++i) {
         result.layers.push_back(self_->layer_of(index, i));

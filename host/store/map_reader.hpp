@@ -1,4 +1,5 @@
-// Reads a map: a finished file, or the run directory of an unfinished one. Every tile is checked
+// Reads a map: a finished file (packed or joined from tile files), or the run directory of an
+// unfinished one. Every tile is checked
 // against its checksum before its numbers are used; what is missing or damaged reads as the fill
 // value
 // ("not computed") and is listed, never given as data. Memory: one tile at a time. A reader belongs
@@ -43,6 +44,10 @@ public:
 
     /// True for a map file, false for a run directory.
     bool is_finished_map() const;
+
+    /// The folder of the tile files of an unfinished map, or of a finished one that is made of
+    /// them.
+    const std::filesystem::path& tile_directory() const;
 
     std::vector<std::uint64_t> missing_tiles() const;
 

@@ -7,6 +7,7 @@
 #include "host/store/run_lock.hpp"
 #include "host/store/shard_record.hpp"
 #include "host/store/tile_file.hpp"
+#include "host/store/verify.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -35,6 +36,7 @@ struct map_run::implementation {
     void open();
     void open_as_helper();
     bool is_map_there();
+    bool are_tiles_there();
     void clear_or_refuse();
     void join_earlier_run();
     void describe();
@@ -53,6 +55,7 @@ struct map_run::implementation {
     std::vector<std::string> notes;
     std::vector<std::optional<tile_summary>> finished;  // one per tile
     bool is_complete = false;
+    bool is_virtual = false;  // the map that is there already
     std::mutex mutex;
 };
 
@@ -64,7 +67,11 @@ bool map_run::implementation::is_map_there() {
         throw store_error(options.map.string(), "is a folder, not a file",
                           "choose another name with -o");
     }
-    if (options.existing == if_exists::replace) return false;
+    if (options.existing == if_exists::replace) {
+        // a virtual map would show the new run's tiles as its own
+        if (std::filesystem::exists(directory, ignored)) remove_file(options.map);
+        return false;
+    }
     if (options.existing == if_exists::refuse) {
         throw store_error(options.map.string(), "there is already a file of that name",
                           "remove it or choose another name with -o");
@@ -74,7 +81,18 @@ bool map_run::implementation::is_map_there() {
     const bool has_one = file.has_attribute("/", "fingerprint");
     require_same_scene(options.map, has_one ? file.attribute_text("/", "fingerprint") : "missing",
                        options.fingerprint);
-    return true;
+    is_virtual = file.has_attribute("/tiles", "directory");
+    return !is_virtual || are_tiles_there();
+}
+
+/// A virtual map is finished as long as its tiles are; those missing or damaged are computed again.
+bool map_run::implementation::are_tiles_there() {
+    std::uint64_t n_wrong = 0;
+    for (const map_problem& problem : verify_file(options.map)) {
+        notes.push_back(problem.text);
+        ++n_wrong;
+    }
+    return n_wrong == 0;
 }
 
 /// What an earlier run left: kept to go on with, removed, or refused.
@@ -169,6 +187,7 @@ std::vector<layer_sum> map_run::implementation::sums() const {
 
 map_description map_run::implementation::description(const map_summary& summary) const {
     map_description map{layout, options.attributes, summary.attractors, summary.point_columns};
+    if (options.keeps_tiles) map.tile_directory = directory.filename().string();
     for (const auto& [name, value] : summary.attributes) set_attribute(map.attributes, name, value);
     set_attribute(map.attributes, "fingerprint", options.fingerprint);
     set_attribute(map.attributes, "hash", map_hash(layout, sums()));
@@ -189,7 +208,8 @@ std::uint64_t map_run::implementation::bytes_of_tiles() const {
 void map_run::implementation::pack(const std::filesystem::path& partial,
                                    const map_description& map) {
     const hdf5_guard guard;
-    hdf5_file file = hdf5_file::create(partial);
+    const bool is_joined = !map.tile_directory.empty();
+    hdf5_file file = is_joined ? hdf5_file::create_virtual(partial) : hdf5_file::create(partial);
     write_description(file, map);
     std::vector<tile_row> rows;
     for (std::uint64_t index = 0; index < finished.size(); ++index) {
@@ -198,12 +218,12 @@ void map_run::implementation::pack(const std::filesystem::path& partial,
             throw store_error(tile_path(directory, index).string(),
                               "the tile changed since it was finished", "run again with --resume");
         }
-        for (std::size_t i = 0; i < layout.layers.size(); ++i) {
+        for (std::size_t i = 0; !is_joined && i < layout.layers.size(); ++i) {
             file.write_chunk(layout.layers[i].name, tile.box.origin, tile.chunks[i]);
         }
         rows.push_back({tile.box, tile.summary.sums, tile.summary.seconds});
     }
-    write_tile_table(file, layout, rows);
+    write_tile_table(file, map, rows);
     file.close();
 }
 
@@ -319,7 +339,7 @@ void map_run::finish(const map_summary& summary) {
     if (self_->is_complete) return;
     const std::filesystem::path partial = partial_name(self_->directory / "map.h5");
     try {
-        require_room(partial, self_->bytes_of_tiles());
+        if (!self_->options.keeps_tiles) require_room(partial, self_->bytes_of_tiles());
         self_->pack(partial, self_->description(summary));
         flush_to_disk(partial);
         rename_into_place(partial, self_->options.map);
@@ -329,7 +349,8 @@ void map_run::finish(const map_summary& summary) {
         throw;
     }
     self_->is_complete = true;
-    self_->leave(true);
+    if (self_->options.keeps_tiles) remove_kept(self_->directory);
+    self_->leave(!self_->options.keeps_tiles);
 }
 
 std::filesystem::path map_run::directory_of(const std::filesystem::path& map) {

@@ -1,6 +1,6 @@
 // A map while it is computed: a run directory `<map>.tiles` with one small HDF5 file per finished
-// tile, packed into the single map file at the end. `kill -9` at any moment loses only the tiles in
-// flight.
+// tile, packed into the single map file at the end or joined there by virtual datasets. `kill -9`
+// at any moment loses only the tiles in flight.
 //
 //     map_run run(layout, {.map = "basin.h5", .fingerprint = ..., .attributes = ..., .existing =
 //     ...}); for (tile : run.missing_tiles())            // any order, any thread
@@ -46,6 +46,7 @@ struct run_options {
     run_role role = run_role::owner;
     shard part{};                                  // the tiles this run is about
     std::vector<std::filesystem::path> adopted{};  // run directories whose tiles are taken over
+    bool keeps_tiles = false;  // the map file refers to the tile files instead of holding them
 };
 
 /// What is known only after the last tile.
@@ -104,8 +105,9 @@ public:
     void rescan();
 
     /// Packs all tiles into the map file (raw chunks, one tile in memory), renames it into place,
-    /// removes the run directory. A layer `label` without flags takes those of the attractors.
-    /// Attributes `Conventions`, `fingerprint` and `hash` are added.
+    /// removes the run directory. Where tiles are kept, the map file's layers are virtual datasets
+    /// over the tile files and the directory stays beside it. A layer `label` without flags takes
+    /// those of the attractors. Attributes `Conventions`, `fingerprint` and `hash` are added.
     /// \error  store_error where tiles are missing or the disk is full; the tiles stay
     void finish(const map_summary& summary);
 

@@ -173,8 +173,9 @@ std::vector<attractor_row> read_attractors(hdf5_file& file,
     return rows;
 }
 
-void write_tile_table(hdf5_file& file, const map_layout& layout,
+void write_tile_table(hdf5_file& file, const map_description& map,
                       const std::vector<tile_row>& rows) {
+    const map_layout& layout = map.layout;
     std::vector<std::string> axis_names;
     std::vector<std::string> layer_names;
     for (const axis& each : layout.axes) axis_names.push_back(each.name);
@@ -204,6 +205,7 @@ void write_tile_table(hdf5_file& file, const map_layout& layout,
            "sum over the tile's cells, 128 bits in two words");
     // Times differ from run to run: an attribute, so that all datasets of equal maps are equal.
     file.set_attribute("/tiles", "compute_seconds", typed_numbers{hdf5_type::float64, seconds});
+    if (!map.tile_directory.empty()) file.set_text("/tiles", "directory", map.tile_directory);
 }
 
 std::vector<tile_row> read_tile_table(hdf5_file& file, const map_layout& layout) {
