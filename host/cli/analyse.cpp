@@ -2,6 +2,7 @@
 // and as JSON.
 #include "host/cli/analysis_report.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/sweep_point.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/cli/usage_error.hpp"
 #include "host/run/attributes.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 struct analyse_arguments {
     std::string file;
+    std::string point;
     std::string layer;
     std::string falls = "separate";
     std::vector<std::string> reference_box;
@@ -90,6 +92,7 @@ void add_analyse(CLI::App& program, int& exit_code) {
     CLI::App* command = program.add_subcommand(
         "analyse", "Basin shares, entropy, boundary dimension, distances of a map");
     command->add_option("file", given->file, "Map file (HDF5)")->required();
+    add_point(*command, given->point);
     command->add_option("-o,--output", given->output,
                         "JSON file, - for standard output; MAP_analysis.json if not given");
     command->add_option("--layer", given->layer,
@@ -105,7 +108,10 @@ void add_analyse(CLI::App& program, int& exit_code) {
                         "AXIS=LOW:HIGH, once per axis: where basin stability is taken");
     command->add_option("--wada-tolerance", given->wada_tolerance,
                         "Cells within which merged boundaries count as one");
-    command->callback([given, &exit_code] { exit_code = analyse(*given); });
+    command->callback([given, &exit_code] {
+        given->file = chosen_map(given->file, given->point);
+        exit_code = analyse(*given);
+    });
 }
 
 }  // namespace hopscotch

@@ -1,6 +1,7 @@
 // hopscotch render FILE.h5: a picture of a map.
 #include "analysis/render/render.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/sweep_point.hpp"
 
 #include <memory>
 
@@ -12,6 +13,7 @@ namespace {
 
 struct render_arguments {
     std::string file;
+    std::string point;
     std::string picture;
     std::string layer;
 };
@@ -30,9 +32,13 @@ void add_render(CLI::App& program, int& exit_code) {
     auto given = std::make_shared<render_arguments>();
     CLI::App* command = program.add_subcommand("render", "Draw a map");
     command->add_option("file", given->file, "Map file (HDF5)")->required();
+    add_point(*command, given->point);
     command->add_option("-o,--output", given->picture, "Picture; FILE.png if not given");
     command->add_option("--layer", given->layer, "Layer to draw; the label if not given");
-    command->callback([given, &exit_code] { exit_code = render(*given); });
+    command->callback([given, &exit_code] {
+        given->file = chosen_map(given->file, given->point);
+        exit_code = render(*given);
+    });
 }
 
 }  // namespace hopscotch

@@ -1,6 +1,7 @@
 // hopscotch replay FILE.h5 --cell i,j: one cell once more, with every event, in every precision.
 #include "analysis/labels/plan.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/sweep_point.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/cli/trace_writer.hpp"
 #include "host/cli/usage_error.hpp"
@@ -25,6 +26,7 @@ namespace {
 
 struct replay_arguments {
     std::string file;
+    std::string point;
     std::string cell;
     int samples = 0;
     std::uint32_t most_returns = 1000;
@@ -146,6 +148,7 @@ void add_replay(CLI::App& program, int& exit_code) {
     auto given = std::make_shared<replay_arguments>();
     CLI::App* command = program.add_subcommand("replay", "One cell once more, with every event");
     command->add_option("file", given->file, "Map file (HDF5)")->required();
+    add_point(*command, given->point);
     command->add_option("--cell", given->cell, "Indices along the axes, as 3,17")->required();
     command->add_option("--samples", given->samples, "Samples per phase (0)")
         ->check(CLI::Range(0, 1000000));
@@ -153,7 +156,10 @@ void add_replay(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(1u, 4000000000u));
     command->add_option("--trace", given->trace,
                         "File for the events; standard output if not given");
-    command->callback([given, &exit_code] { exit_code = replay(*given); });
+    command->callback([given, &exit_code] {
+        given->file = chosen_map(given->file, given->point);
+        exit_code = replay(*given);
+    });
 }
 
 }  // namespace hopscotch

@@ -2,10 +2,12 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/durations.hpp"
 #include "host/cli/run_answer.hpp"
+#include "host/cli/run_sweep.hpp"
 #include "host/cli/shard_argument.hpp"
 #include "host/mpi/start_team.hpp"
 #include "host/run/estimate.hpp"
 #include "host/run/summary.hpp"
+#include "host/scene/sweep.hpp"
 
 #include <memory>
 #include <optional>
@@ -52,6 +54,7 @@ int run_by(team& ranks, const run_arguments& given) {
         what = read_scene(given.scene, given.overrides);
         choices = choices_of(given);
     });
+    if (is_sweep(*what)) return run_and_tell_sweep(*what, choices, given.is_dry, ranks);
     if (given.is_dry) {
         if (!ranks.is_first()) return exit_done;
         const run_hooks hooks = hooks_of(*what, choices.file);

@@ -3,6 +3,7 @@
 
 #include "analysis/labels/plan.hpp"
 #include "analysis/render/render.hpp"
+#include "host/cli/companion.hpp"
 #include "host/cli/shard_argument.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/run/audit.hpp"
@@ -13,12 +14,6 @@
 
 namespace hopscotch {
 namespace {
-
-/// A file beside the map, of the same name up to its ending.
-std::filesystem::path companion(std::filesystem::path map, const std::string& ending) {
-    if (map.extension() == ending) return map += ending;
-    return map.replace_extension(ending);
-}
 
 /// The picture is a courtesy: without it the run is still done.
 void write_picture(const run_report& report) {

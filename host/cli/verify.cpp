@@ -1,11 +1,13 @@
 // hopscotch verify FILE.h5: is the file what was computed, and was that right?
 #include "analysis/labels/plan.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/sweep_point.hpp"
 #include "host/run/attributes.hpp"
 #include "host/run/open_cells.hpp"
 #include "host/run/audit.hpp"
 #include "host/run/orbit_diagram.hpp"
 #include "host/run/requests.hpp"
+#include "host/store/sweep_index.hpp"
 #include "host/store/verify.hpp"
 
 #include <memory>
@@ -18,6 +20,7 @@ namespace {
 
 struct verify_arguments {
     std::string file;
+    std::string point;
     std::uint64_t n_cells = 0;
     std::uint64_t seed = 0;
 };
@@ -57,6 +60,36 @@ int verify(const verify_arguments& given) {
     return exit_done;
 }
 
+/// Every map of a sweep: its sums, and whether it is the one that the index has listed.
+int verify_sweep(const verify_arguments& given) {
+    const std::filesystem::path directory = sweep_directory(given.file);
+    const std::vector<std::string> hashes = read_sweep_contents(given.file).hashes;
+    int code = exit_done;
+    const auto complain = [&](const std::string& text) {
+        fmt::print(stderr, "hopscotch: {}\n", text);
+        code = exit_store;
+    };
+    for (std::uint64_t point = 0; point < hashes.size(); ++point) {
+        const std::string file = sweep_map_path(directory, point).string();
+        if (!std::filesystem::exists(file)) {
+            complain(fmt::format("{} (missing); run again with --resume?", file));
+            continue;
+        }
+        const std::vector<map_problem> problems = verify_file(file);
+        for (const map_problem& problem : problems) complain(problem.text);
+        if (!problems.empty()) continue;
+        if (map_reader(file).attribute("hash") != hashes[point]) {
+            complain(fmt::format("{} (not the map that the index lists); --resume?", file));
+        }
+        verify_arguments of_map = given;
+        of_map.file = file;
+        if (given.n_cells > 0) recompute(of_map);
+    }
+    if (code == exit_done)
+        fmt::print("maps              {}, all tiles as computed\n", hashes.size());
+    return code;
+}
+
 }  // namespace
 
 void add_verify(CLI::App& program, int& exit_code) {
@@ -64,11 +97,16 @@ void add_verify(CLI::App& program, int& exit_code) {
     CLI::App* command =
         program.add_subcommand("verify", "Check a map's sums and some of its cells");
     command->add_option("file", given->file, "Map file (HDF5)")->required();
+    add_point(*command, given->point);
     command->add_option("--cells", given->n_cells,
                         "Random cells to recompute in higher precision (0)");
     command->add_option("--seed", given->seed,
                         "Which random cells; 0 for those of the run's own audit (0)");
-    command->callback([given, &exit_code] { exit_code = verify(*given); });
+    command->callback([given, &exit_code] {
+        const bool is_whole_sweep = given->point.empty() && !sweep_directory(given->file).empty();
+        if (!is_whole_sweep) given->file = chosen_map(given->file, given->point);
+        exit_code = is_whole_sweep ? verify_sweep(*given) : verify(*given);
+    });
 }
 
 }  // namespace hopscotch

@@ -48,11 +48,21 @@ attribute_list attributes_of(const scene& scene, const kernel_choice& kernel) {
 }
 
 scene scene_of(const map_reader& map, std::span<const model_entry* const> models) {
-    const std::string text = map.attribute("scene");
+    return scene_of(map.attributes(), models);
+}
+
+scene scene_of(const attribute_list& attributes, std::span<const model_entry* const> models) {
+    const auto attribute = [&](std::string_view name) -> std::string {
+        for (const auto& [key, value] : attributes) {
+            if (key == name) return value;
+        }
+        return {};
+    };
+    const std::string text = attribute("scene");
     if (text.empty()) throw store_error("map", "holds no scene", "a file written by `run`");
     const scene result =
-        parse_scene(text, map.attribute("scene_file"), split(map.attribute("overrides")), models);
-    if (result.fingerprint != map.attribute("fingerprint")) {
+        parse_scene(text, attribute("scene_file"), split(attribute("overrides")), models);
+    if (result.fingerprint != attribute("fingerprint")) {
         throw store_error("map",
                           "this version reads its scene differently, the fingerprints differ",
                           "the version in its attribute `source`");

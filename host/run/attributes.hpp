@@ -15,5 +15,7 @@ attribute_list attributes_of(const scene& scene, const kernel_choice& kernel);
 /// The scene that a map was computed from.
 /// \error store_error where the map holds none, scene_error where this program reads it differently
 scene scene_of(const map_reader& map, std::span<const model_entry* const> models = all_models());
+scene scene_of(const attribute_list& attributes,
+               std::span<const model_entry* const> models = all_models());
 
 }  // namespace hopscotch

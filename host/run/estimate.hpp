@@ -9,6 +9,7 @@ namespace hopscotch {
 struct run_estimate {
     std::string backend;
     int n_threads = 1;
+    std::uint64_t n_maps = 1;  // of a sweep; the numbers are for all of them
     std::uint64_t n_cells = 0;
     std::uint64_t n_tiles = 0;
     std::vector<std::uint64_t> tile;

@@ -2,11 +2,14 @@
 #include "host/run/stop_condition.hpp"
 
 #include <csignal>
+#include <mutex>
 
 namespace hopscotch {
 namespace {
 
 volatile std::sig_atomic_t has_signal = 0;
+std::mutex mutex;
+int n_alive = 0;  // a sweep and its maps
 
 void raise_flag(int signal) {
     has_signal = 1;
@@ -19,6 +22,8 @@ void raise_flag_again(int) { has_signal = 1; }
 
 stop_condition::stop_condition(std::optional<double> walltime)
     : begin_(std::chrono::steady_clock::now()), walltime_(walltime) {
+    const std::lock_guard guard(mutex);
+    if (n_alive++ > 0) return;
     has_signal = 0;
     std::signal(SIGINT, raise_flag);
     std::signal(SIGTERM, raise_flag);
@@ -26,6 +31,8 @@ stop_condition::stop_condition(std::optional<double> walltime)
 }
 
 stop_condition::~stop_condition() {
+    const std::lock_guard guard(mutex);
+    if (--n_alive > 0) return;
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
     std::signal(SIGUSR1, SIG_IGN);  // the answer is being written

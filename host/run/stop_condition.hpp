@@ -13,9 +13,9 @@ struct interruption : std::exception {
     const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// While one lives, SIGINT, SIGTERM and SIGUSR1 only raise a flag. One at a time. SIGUSR1 is what
-/// batch systems are asked to send before the end of a job's time; launchers pass it on to all
-/// ranks, some of them more than once, so that it may come again.
+/// While one lives, SIGINT, SIGTERM and SIGUSR1 only raise a flag. They may be nested (a sweep and
+/// its maps). SIGUSR1 is what batch systems are asked to send before the end of a job's time;
+/// launchers pass it on to all ranks, some of them more than once, so that it may come again.
 class stop_condition {
 public:
     /// \param walltime  seconds from now after which no tile may still be in flight

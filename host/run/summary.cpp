@@ -147,6 +147,7 @@ std::string json_of(const scene& scene, const run_report& report) {
 
 std::string text_of(const scene& scene, const run_estimate& estimate) {
     std::string text = fmt::format("{}\n", scene.title);
+    if (estimate.n_maps > 1) text += fmt::format("maps       {}\n", estimate.n_maps);
     text += fmt::format("cells      {}\n", estimate.n_cells);
     text += fmt::format("tiles      {} of {} cells\n", estimate.n_tiles,
                         fmt::join(estimate.tile, " x "));

@@ -2,27 +2,15 @@
 // again only under the same fingerprint. File name, compression, tile shape, layers, titles and the
 // audit leave every number as it is and do not enter (the store compares tiles and layers by
 // itself), nor does the tolerance where no flow is integrated.
+#include "host/map/text_hash.hpp"
 #include "host/scene/grid.hpp"
 #include "host/scene/readers.hpp"
+#include "host/scene/sweep.hpp"
 
 #include <fmt/format.h>
 
 namespace hopscotch {
 namespace {
-
-__extension__ using word128 = unsigned __int128;
-
-/// FNV-1a over 128 bits: short, and the same on every machine.
-std::string hash_of(std::string_view text) {
-    constexpr word128 prime = (static_cast<word128>(1) << 88) + 0x13b;
-    word128 hash = (static_cast<word128>(0x6c62272e07bb0142u) << 64) + 0x62b821756295c58du;
-    for (const char letter : text) {
-        hash ^= static_cast<unsigned char>(letter);
-        hash *= prime;
-    }
-    return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(hash >> 64),
-                       static_cast<std::uint64_t>(hash));
-}
 
 /// Does the tolerance decide any number of this map?
 bool integrates(const scene& scene) {
@@ -30,6 +18,14 @@ bool integrates(const scene& scene) {
     const parameter_extremes extremes = extremes_of(scene);
     return scene.model->integrates(scene.model->variant(
         {extremes.lowest.data(), extremes.highest.data(), scene.options.data()}));
+}
+
+std::string sweep_text(const scene_sweep& sweep) {
+    std::string text = fmt::format("sweep {}\n", sweep.is_zip ? "zip" : "product");
+    for (const sweep_axis& axis : sweep.axes) {
+        text += fmt::format("sweep_axis {} {:a}\n", axis.name, fmt::join(axis.values, " "));
+    }
+    return text;
 }
 
 /// The scene in a form in which two scenes with the same numbers read the same.
@@ -61,11 +57,12 @@ std::string canonical(const scene& scene) {
     text +=
         fmt::format("accuracy {} {:a} {}\n", scene.accuracy.precision,
                     integrates(scene) ? scene.accuracy.tolerance : 0.0, scene.accuracy.max_events);
+    if (is_sweep(scene)) text += sweep_text(scene.sweep);
     return text;
 }
 
 }  // namespace
 
-std::string fingerprint_of(const scene& scene) { return hash_of(canonical(scene)); }
+std::string fingerprint_of(const scene& scene) { return text_hash(canonical(scene)); }
 
 }  // namespace hopscotch

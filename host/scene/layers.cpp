@@ -38,8 +38,9 @@ layer_plan state_plan(const scene& scene, int index) {
     // an orbit diagram's axes after the first are starts, not axes of its file
     const auto last =
         scene.question.kind == "orbit_diagram" ? scene.axes.begin() + 1 : scene.axes.end();
-    const bool is_axis = std::any_of(scene.axes.begin(), last,
-                                     [&](const scene_axis& axis) { return axis.name == name; });
+    const auto has_name = [&](const auto& axis) { return axis.name == name; };
+    const bool is_axis = std::any_of(scene.axes.begin(), last, has_name) ||
+                         std::any_of(scene.sweep.axes.begin(), scene.sweep.axes.end(), has_name);
     if (is_axis) {
         result.alias = name;  // a dimension scale of that name is already in the file
         result.description.name = "last_" + name;

@@ -4,6 +4,7 @@
 #include "host/scene/grid.hpp"
 #include "host/scene/range_text.hpp"
 #include "host/scene/suggest.hpp"
+#include "host/scene/sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -165,6 +166,14 @@ void read_start(scene& scene, const table_reader& root) {
     for (const scene_axis& axis : scene.axes) {
         if (axis.kind == axis_kind::column) is_axis[static_cast<std::size_t>(axis.index)] = true;
     }
+    std::vector<double> swept(columns.size(), std::numeric_limits<double>::quiet_NaN());
+    const std::vector<std::uint64_t> first(scene.sweep.axes.size(), 0);
+    const std::vector<double> values =
+        sweep_values(scene.sweep, scene.sweep.point.empty() ? first : scene.sweep.point);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const sweep_axis& axis = scene.sweep.axes[i];
+        if (axis.kind == axis_kind::column) swept[static_cast<std::size_t>(axis.index)] = values[i];
+    }
     table.expect_keys(names_of(columns),
                       fmt::format("state column of section {}", scene.start_section().name));
     for (std::size_t index = 0; index < columns.size(); ++index) {
@@ -172,6 +181,11 @@ void read_start(scene& scene, const table_reader& root) {
         const auto value = table.number(name);
         if (value && is_axis[index]) table.refuse(name, "an axis as well", "remove one of them");
         if (is_axis[index]) continue;
+        if (!std::isnan(swept[index])) {
+            if (value) table.refuse(name, "an axis of the sweep as well", "remove one of them");
+            scene.start[index] = swept[index];
+            continue;
+        }
         if (!value) {
             table.missing(name,
                           fmt::format("state column of section {}, neither axis nor start",

@@ -84,7 +84,7 @@ void read_model(scene& scene, const table_reader& root,
     read_options(scene, table.table("options"));
 }
 
-void check_refusals(const scene& scene, const table_reader& root) {
+std::string_view refusal_of(const scene& scene, std::vector<double>* where) {
     const parameter_extremes extremes = extremes_of(scene);
     std::vector<std::size_t> moving;
     for (const scene_axis& axis : scene.axes) {
@@ -99,8 +99,17 @@ void check_refusals(const scene& scene, const table_reader& root) {
             if (is_high) parameters[moving[bit]] = extremes.highest[moving[bit]];
         }
         const std::string_view why = scene.model->refusal(parameters.data(), scene.options.data());
-        if (!why.empty()) refuse_combination(scene, root, parameters, why);
+        if (why.empty()) continue;
+        if (where != nullptr) *where = parameters;
+        return why;
     }
+    return {};
+}
+
+void check_refusals(const scene& scene, const table_reader& root) {
+    std::vector<double> parameters;
+    const std::string_view why = refusal_of(scene, &parameters);
+    if (!why.empty()) refuse_combination(scene, root, parameters, why);
 }
 
 }  // namespace hopscotch

@@ -21,6 +21,7 @@ constexpr std::uint64_t enough_tiles = 64;  // so that threads share a small map
 constexpr std::uint64_t most_tiles = 16384;
 constexpr std::int64_t most_tile_cells = std::int64_t{1} << 26;
 
+/// Of one map.
 std::uint64_t n_tiles(const scene& scene, const std::vector<std::uint64_t>& tile) {
     std::uint64_t tiles = 1;
     for (std::size_t axis = 0; axis < tile.size(); ++axis) {
@@ -43,7 +44,8 @@ std::vector<std::uint64_t> standard_tile(const scene& scene) {
     for (const scene_axis& axis : scene.axes) {
         tile.push_back(std::min(axis.cells, static_cast<std::uint64_t>(side + 0.5)));
     }
-    while (n_tiles(scene, tile) < enough_tiles && cells_of(tile) > least_tile_cells) {
+    const std::uint64_t n_maps = scene.sweep.n_points();  // all maps' tiles are one pool
+    while (n_maps * n_tiles(scene, tile) < enough_tiles && cells_of(tile) > least_tile_cells) {
         std::uint64_t& longest = *std::max_element(tile.begin(), tile.end());
         longest = (longest + 1) / 2;
     }

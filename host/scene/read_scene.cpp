@@ -21,10 +21,12 @@ scene checked(const document& document, std::span<const std::string> overrides,
     result.text = document.text;
     result.overrides.assign(overrides.begin(), overrides.end());
     const table_reader root = table_reader::root(document);
-    root.expect_keys({"scene", "model", "grid", "start", "question", "accuracy", "output"});
+    root.expect_keys(
+        {"scene", "model", "grid", "sweep", "start", "question", "accuracy", "output"});
     read_names(result, root);
     read_model(result, root, models);
     read_grid(result, root);
+    read_sweep(result, root);
     read_start(result, root);
     check_refusals(result, root);
     read_question(result, root);

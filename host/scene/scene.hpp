@@ -32,6 +32,24 @@ struct scene_axis {
     bool edges = false;  // samples the end points instead of the cell centres
 };
 
+/// One axis of a sweep: a parameter or a fixed start, and the values it takes.
+struct sweep_axis {
+    std::string name;
+    axis_kind kind = axis_kind::parameter;
+    int index = 0;  // among the model's parameters or the section's columns
+    std::vector<double> values;
+    axis_scale scale = axis_scale::linear;
+};
+
+/// One map per point; see host/scene/sweep.hpp.
+struct scene_sweep {
+    std::vector<sweep_axis> axes;
+    bool is_zip = false;               // all axes move together
+    std::vector<std::uint64_t> point;  // set where the scene is one map of the sweep
+
+    std::uint64_t n_points() const;  // 1 where there is no sweep
+};
+
 /// What the map shows. `numbers` holds what only some kinds know (see host/scene/questions.hpp).
 struct scene_question {
     std::string place;  // where the scene asks it, for messages
@@ -81,6 +99,7 @@ struct scene {
     std::vector<scene_axis> axes;  // the first one is the slowest in memory
     std::vector<double> start;     // one per column of the section; NaN where the column is an axis
 
+    scene_sweep sweep;
     scene_question question;
     scene_accuracy accuracy;
     scene_output output;

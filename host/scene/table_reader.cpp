@@ -122,6 +122,24 @@ std::optional<std::int64_t> table_reader::whole(std::string_view key, std::int64
     return whole;
 }
 
+std::optional<std::vector<double>> table_reader::numbers(std::string_view key) const {
+    const setting* found = entry(key);
+    if (found == nullptr) return std::nullopt;
+    const auto* list = std::get_if<setting::list>(&found->value);
+    if (list == nullptr) refuse(key, "a list of numbers is needed here", "[0.1, 0.2]");
+    std::vector<double> result;
+    for (const setting& value : *list) {
+        const auto* whole = std::get_if<std::int64_t>(&value.value);
+        const auto* number = std::get_if<double>(&value.value);
+        if (whole == nullptr && number == nullptr) {
+            refuse(key, "a list of numbers is needed here", "[0.1, 0.2]");
+        }
+        result.push_back(whole != nullptr ? static_cast<double>(*whole) : *number);
+        if (std::isnan(result.back())) refuse(key, "not a number");
+    }
+    return result;
+}
+
 std::optional<std::vector<std::string>> table_reader::texts(std::string_view key) const {
     const setting* found = entry(key);
     if (found == nullptr) return std::nullopt;

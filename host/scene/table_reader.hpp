@@ -48,6 +48,8 @@ public:
     std::optional<std::int64_t> whole(
         std::string_view key, std::int64_t least,
         std::int64_t most = std::numeric_limits<std::int64_t>::max()) const;
+    /// A list of numbers, none of them NaN.
+    std::optional<std::vector<double>> numbers(std::string_view key) const;
     std::optional<std::vector<std::string>> texts(std::string_view key) const;
     std::optional<std::vector<std::int64_t>> wholes(std::string_view key, std::int64_t least) const;
 

@@ -212,10 +212,15 @@ void hdf5_file::write(const std::string& path, hdf5_type type, const shape_type&
 }
 
 void hdf5_file::write(const std::string& path, std::span<const std::string> texts) {
+    write(path, {texts.size()}, texts);
+}
+
+void hdf5_file::write(const std::string& path, const shape_type& shape,
+                      std::span<const std::string> texts) {
     std::vector<const char*> pointers;
     for (const std::string& text : texts) pointers.push_back(text.c_str());
     const hdf5_handle type = text_type();
-    write_dense(path, hdf5_type::text, {texts.size()}, type.id(), pointers.data());
+    write_dense(path, hdf5_type::text, shape, type.id(), pointers.data());
 }
 
 hdf5_type hdf5_file::type_of(const std::string& path) const {

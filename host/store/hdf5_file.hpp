@@ -100,6 +100,8 @@ public:
     void write(const std::string& path, hdf5_type type, const shape_type& shape,
                std::span<const double> values);  // converted to an integer type
     void write(const std::string& path, std::span<const std::string> texts);
+    void write(const std::string& path, const shape_type& shape,
+               std::span<const std::string> texts);
 
     hdf5_type type_of(const std::string& path) const;
     shape_type shape_of(const std::string& path) const;

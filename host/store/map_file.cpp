@@ -11,8 +11,6 @@ namespace hopscotch {
 
 namespace {
 
-constexpr const char* conventions = "CF-1.10";
-
 /// CF separates flag meanings by blanks.
 std::string as_one_word(std::string name) {
     std::replace_if(
@@ -31,13 +29,6 @@ void describe(hdf5_file& file, const std::string& name, const std::string& unit,
               const std::string& long_name) {
     if (!long_name.empty()) file.set_attribute(name, "long_name", long_name);
     file.set_attribute(name, "units", unit.empty() ? "1" : unit);
-}
-
-void write_axis(hdf5_file& file, const axis& each) {
-    file.write(each.name, {each.size()}, std::span<const double>(each.values));
-    file.make_scale(each.name, each.name);
-    describe(file, each.name, each.unit, each.long_name);
-    file.set_attribute(each.name, "scale", each.scale);
 }
 
 std::string colour_words(const std::vector<std::pair<int, std::string>>& flags,
@@ -89,9 +80,7 @@ void write_layer(hdf5_file& file, const map_description& map, const layer& each)
     for (unsigned i = 0; i < map.layout.axes.size(); ++i) {
         file.attach_scale(each.name, map.layout.axes[i].name, i);
     }
-    describe(file, each.name, each.unit, each.long_name);
-    file.set_attribute(each.name, "_FillValue", typed_numbers{stored_as(each.type), {each.fill}});
-    if (!each.flags.empty()) write_flags(file, each, map.attractors);
+    describe_layer(file, each, map.attractors);
     if (!map.tile_directory.empty()) file.let_go(each.name);
 }
 
@@ -147,8 +136,8 @@ layer read_layer(hdf5_file& file, const std::string& name) {
 /// Of virtual layers: where the tile files lie, and their shape, which is the first one's.
 void read_tile_files(hdf5_file& file, map_description& map) {
     if (!file.has("/tiles")) {
-        throw store_error(file.place(), "its layers are virtual, but no map of tile files",
-                          "open one of the files it refers to");
+        throw store_error(file.place(), "an index over the maps of a sweep, and no map itself",
+                          "one of its maps, with --point or from the folder beside it");
     }
     map.tile_directory = file.attribute_text("/tiles", "directory");
     const std::vector<std::uint64_t> extents = file.read_words("/tiles/extent");
@@ -168,6 +157,24 @@ void restore_label_names(map_description& map) {
 }
 
 }  // namespace
+
+void describe_axis(hdf5_file& file, const axis& each) {
+    describe(file, each.name, each.unit, each.long_name);
+    file.set_attribute(each.name, "scale", each.scale);
+}
+
+void write_axis(hdf5_file& file, const axis& each) {
+    file.write(each.name, {each.size()}, std::span<const double>(each.values));
+    file.make_scale(each.name, each.name);
+    describe_axis(file, each);
+}
+
+void describe_layer(hdf5_file& file, const layer& each,
+                    const std::vector<attractor_row>& attractors) {
+    describe(file, each.name, each.unit, each.long_name);
+    file.set_attribute(each.name, "_FillValue", typed_numbers{stored_as(each.type), {each.fill}});
+    if (!each.flags.empty()) write_flags(file, each, attractors);
+}
 
 hdf5_type stored_as(number_type type) {
     switch (type) {
@@ -204,7 +211,7 @@ map_description completed(map_description map, const std::string& place) {
         }
     }
     if (attribute_of(map.attributes, "Conventions").empty()) {
-        map.attributes.insert(map.attributes.begin(), {"Conventions", conventions});
+        map.attributes.insert(map.attributes.begin(), {"Conventions", cf_conventions});
     }
     return map;
 }

@@ -40,7 +40,17 @@ struct tile_row {
     double seconds = 0.0;
 };
 
+inline constexpr const char* cf_conventions = "CF-1.10";
+
 hdf5_type stored_as(number_type type);
+
+/// An axis as a dimension scale, with units and meaning.
+void write_axis(hdf5_file& file, const axis& each);
+void describe_axis(hdf5_file& file, const axis& each);  // of a dataset that is there
+
+/// Units, meaning, fill value and flags of a layer whose dataset is there.
+void describe_layer(hdf5_file& file, const layer& each,
+                    const std::vector<attractor_row>& attractors);
 
 /// A description fit for writing: throws store_error where names clash or an axis has no cell; a
 /// layer `label` without flags takes the attractors' names.

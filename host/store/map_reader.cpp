@@ -182,12 +182,12 @@ compressed_tile map_reader::implementation::stored_tile(std::uint64_t tile) {
 
 /// The checked numbers of one layer of one tile.
 std::vector<std::byte> map_reader::implementation::layer_of(std::uint64_t tile, std::size_t layer) {
-    const hdf5_guard guard;
     const tile_box box = box_of(map.layout, tile);
     const std::string& name = map.layout.layers[layer].name;
     std::vector<std::byte> chunk;
     layer_sum sum;
     if (tiles.empty()) {
+        const hdf5_guard guard;  // decoding needs none: several readers work side by side
         auto stored = file->read_chunk(name, box.origin);
         if (!stored) fail(tile, "missing: layer " + name + " was never written");
         chunk = std::move(*stored);
@@ -242,6 +242,12 @@ const std::vector<std::string>& map_reader::point_columns() const {
 bool map_reader::is_finished_map() const { return self_->file.has_value(); }
 
 const std::filesystem::path& map_reader::tile_directory() const { return self_->tiles; }
+
+double map_reader::compute_seconds() const {
+    double seconds = 0.0;
+    for (const tile_row& row : self_->table) seconds += row.seconds;
+    return seconds;
+}
 
 std::vector<std::uint64_t> map_reader::missing_tiles() const {
     const hdf5_guard guard;

@@ -51,6 +51,9 @@ public:
 
     std::vector<std::uint64_t> missing_tiles() const;
 
+    /// Seconds that threads have spent on the tiles of a finished map.
+    double compute_seconds() const;
+
     /// One checked tile. \error store_error where it is missing or damaged
     tile_data tile(std::uint64_t index) const;
 

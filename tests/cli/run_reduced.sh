@@ -17,5 +17,11 @@ if grep -q '^kind = "branch"' "$scene"; then
     exit
 fi
 for ((axis = 0; axis < axes; ++axis)); do reduced+=("grid.axis.$axis.cells=24"); done
+# sweeps: two points along every axis that has a number of them
+axis=0
+for key in $(grep -oE "^(points|values)" "$scene"); do
+    [ "$key" = values ] || reduced+=("sweep.axis.$axis.points=2")
+    axis=$((axis + 1))
+done
 "$program" run "$scene" "${reduced[@]}" accuracy.audit_cells=5 --quiet -o map.h5
 "$program" verify map.h5 --cells 2
