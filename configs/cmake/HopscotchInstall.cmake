@@ -13,7 +13,7 @@ install(DIRECTORY analysis/python/hopscotch DESTINATION ${CMAKE_INSTALL_DATADIR}
     FILES_MATCHING PATTERN "*.py")
 set(HOPSCOTCH_PACKAGE ${CMAKE_INSTALL_LIBDIR}/cmake/hopscotch)
 install(DIRECTORY kernels/ensemble/units DESTINATION ${HOPSCOTCH_PACKAGE})
-install(FILES configs/cmake/HopscotchModels.cmake configs/cmake/HopscotchTargets.cmake
+install(FILES configs/cmake/HopscotchModels.cmake configs/cmake/HopscotchTargets.cmake configs/cmake/HopscotchCuda.cmake
     DESTINATION ${HOPSCOTCH_PACKAGE})
 install(EXPORT hopscotch_targets NAMESPACE hopscotch:: DESTINATION ${HOPSCOTCH_PACKAGE})
 configure_package_config_file(configs/cmake/hopscotch-config.cmake.in

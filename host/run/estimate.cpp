@@ -103,7 +103,8 @@ run_estimate estimate(const scene& scene, const run_choices& choices, const run_
     const auto n_cells = static_cast<double>(scene.n_cells());
     result.n_sampled = timing.cells;
     result.undecided = static_cast<double>(timing.undecided) / sampled;
-    result.seconds = timing.seconds / sampled * n_cells / result.n_threads;
+    const int at_once = kernel.which == backend::cuda ? 1 : result.n_threads;
+    result.seconds = timing.seconds / sampled * n_cells / at_once;
     return result;
 }
 
