@@ -76,6 +76,17 @@ void add_branches_from_starts(std::vector<branch>& branches, const branch_study&
     }
 }
 
+/// Whether an orbit in the middle of the branch lies on one of those known.
+bool is_known(const std::vector<branch>& branches, const branch_family& family,
+              const branch& found) {
+    const orbit_on_branch& inner = found.orbits[found.orbits.size() / 2];
+    periodic_orbit orbit{.period = found.period, .n_columns = family.map.n_columns()};
+    for (const auto& point : points_of(family, found.period, inner))
+        orbit.points.insert(orbit.points.end(), point.begin(), point.end());
+    if (static_cast<int>(orbit.points.size()) < orbit.period * orbit.n_columns) return true;
+    return is_known(branches, family, orbit, inner.variable);
+}
+
 /// Branches from the flips of one generation; an orbit of twice the period that is known already is
 /// not followed again.
 void add_doubled(std::vector<branch>& branches, const branch_study& study, std::size_t parent,
@@ -85,12 +96,7 @@ void add_doubled(std::vector<branch>& branches, const branch_study& study, std::
         if (special.kind != special_kind::flip) continue;
         auto found = doubled_branch(study.family, from.period, special, limits);
         if (!found || found->orbits.size() < 2) continue;
-        const orbit_on_branch& inner = found->orbits[found->orbits.size() / 2];
-        periodic_orbit orbit{.period = found->period, .n_columns = study.family.map.n_columns()};
-        for (const auto& point : points_of(study.family, found->period, inner))
-            orbit.points.insert(orbit.points.end(), point.begin(), point.end());
-        if (static_cast<int>(orbit.points.size()) < orbit.period * orbit.n_columns) continue;
-        if (is_known(branches, study.family, orbit, inner.variable)) continue;
+        if (is_known(branches, study.family, *found)) continue;
         found->parent = static_cast<int>(parent);
         branches.push_back(std::move(*found));
     }
@@ -101,6 +107,7 @@ void add_crossing(std::vector<branch>& branches, const branch_study& study, std:
     for (const special_point& special : from.special) {
         if (special.kind != special_kind::branch_point) continue;
         for (branch& found : crossing_branches(study.family, from.period, special, study.limits)) {
+            if (found.orbits.size() < 2 || is_known(branches, study.family, found)) continue;
             found.parent = static_cast<int>(parent);
             branches.push_back(std::move(found));
         }

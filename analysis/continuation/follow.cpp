@@ -199,7 +199,10 @@ private:
             if (!kind) continue;
             special.kind = *kind;
             special.position = path_.orbits.size() - 1;
-            special.tangent = zero->tangent;
+            // where branches cross, the Jacobian of the point itself has no one tangent
+            special.tangent = special.kind == special_kind::branch_point
+                                  ? (next.unknowns - here_.unknowns).normalized()
+                                  : zero->tangent;
             path_.special.push_back(std::move(special));
         }
     }

@@ -75,14 +75,16 @@ std::vector<periodic_orbit> start_orbits(const branch_family& family, double var
     const std::vector<double> starts = grid_of_starts(sampled);
     const map_point map =
         equation.map_at(equation.unknowns_of(std::span(starts).first(sampled.size()), variable));
-    const settled_orbits settled =
-        settle(map, map.section, starts, static_cast<std::uint32_t>(settling));
+    settled_orbits settled;
+    if (settling > 0) {
+        settled = settle(map, map.section, starts, static_cast<std::uint32_t>(settling));
+    }
+    const std::size_t n = sampled.size();
     std::vector<periodic_orbit> orbits;
     for (int period = 1; period <= most_period; ++period) {
-        for (std::size_t i = 0; i < settled.size(); ++i) {
-            const std::size_t n = sampled.size();
+        for (std::size_t i = 0; i < starts.size() / n; ++i) {
             add_new(orbits, family, map, std::span(starts).subspan(i * n, n), period);
-            if (settled.end_of(i) == outcome::ok)
+            if (settling > 0 && settled.end_of(i) == outcome::ok)
                 add_new(orbits, family, map, settled.state_of(i), period);
         }
     }

@@ -18,6 +18,26 @@ Eigen::VectorXd null_vector(const Eigen::MatrixXd& matrix) {
     return Eigen::JacobiSVD<Eigen::MatrixXd>(matrix, Eigen::ComputeFullV).matrixV().rightCols(1);
 }
 
+/// A first orbit on the branch that crosses, on one side of the known one: looked for perpendicular
+/// to it and at slants.
+std::optional<curve_point> first_across(const branch_equation& equation,
+                                        const Eigen::VectorXd& from, const Eigen::VectorXd& across,
+                                        const Eigen::VectorXd& along, const follow_limits& limits) {
+    constexpr std::array slants{0.0, 0.6, -0.6, 1.1, -1.1};  // radians
+    for (const double share : first_steps) {
+        const double length = share * limits.step;
+        for (const double slant : slants) {
+            const Eigen::VectorXd direction = std::cos(slant) * across + std::sin(slant) * along;
+            const auto point = step_along(equation, from, direction, length).point;
+            if (!point) continue;
+            const Eigen::VectorXd moved = point->unknowns - from;
+            const bool is_off = moved.dot(across) > 0.3 * length;  // the known branch
+            if (is_off && moved.norm() < 2.0 * length) return point;
+        }
+    }
+    return std::nullopt;
+}
+
 /// Direction in the unknowns in which the two points of the doubled orbit part.
 Eigen::VectorXd parting_direction(const branch_equation& equation, const special_point& flip) {
     const Eigen::VectorXd& unknowns = flip.orbit.unknowns;
@@ -65,15 +85,11 @@ std::vector<branch> crossing_branches(const branch_family& family, int period,
     bordered << value.jacobian, crossing.tangent.transpose();
     const Eigen::VectorXd across = null_vector(bordered);
     for (const double sign : {1.0, -1.0}) {
-        for (const double share : first_steps) {
-            const double length = share * limits.step;
-            const auto point = step_along(equation, from, sign * across, length).point;
-            if (!point || (point->unknowns - from).norm() > 2.0 * length) continue;
-            branch piece = follow(equation, *point, limits);
-            piece.first = {branch_end::start, ""};
-            found.push_back(std::move(piece));
-            break;
-        }
+        const auto point = first_across(equation, from, sign * across, crossing.tangent, limits);
+        if (!point) continue;
+        branch piece = follow(equation, *point, limits);
+        piece.first = {branch_end::start, ""};
+        found.push_back(std::move(piece));
     }
     return found;
 }
