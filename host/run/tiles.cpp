@@ -2,9 +2,12 @@
 #include "host/run/tiles.hpp"
 
 #include "host/map/rows.hpp"
+#include "host/run/labelled_run.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/state_rule.hpp"
+#include "host/run/uncertain.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <limits>
@@ -18,8 +21,8 @@ Number* numbers(std::vector<std::byte>& buffer) {
     return reinterpret_cast<Number*>(buffer.data());  // new gives memory aligned for every number
 }
 
-/// Points the kernel's result to the layer's buffer. Periods and immediate basins are no results:
-/// they follow from the label and from the start.
+/// Points the kernel's result to the layer's buffer. Periods, immediate basins and uncertainty are
+/// no results: they follow from the label, from the start, and from further runs.
 void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::byte>& buffer) {
     switch (layer.role) {
         case layer_role::label:
@@ -60,6 +63,7 @@ void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::b
             break;
         case layer_role::period:
         case layer_role::immediate:
+        case layer_role::uncertain:
             break;
     }
 }
@@ -95,23 +99,6 @@ void fill_immediate(const label_plan& plan, const ensemble_request& request,
     }
 }
 
-/// Orbits that have spent their returns uncaught belong to the chaotic set that their last state
-/// lies on, if there is one.
-void label_chaotic(const label_plan& plan, const ensemble_request& request, std::size_t n_columns) {
-    std::vector<double> state(n_columns);
-    for (std::uint64_t cell = 0; cell < request.n_cells; ++cell) {
-        const bool is_spent = request.outcome[cell] == static_cast<int>(outcome::budget) &&
-                              request.returns[cell] == request.max_returns;
-        if (!is_spent) continue;
-        for (std::size_t c = 0; c < n_columns; ++c) state[c] = request.state[c][cell];
-        const auto point = static_cast<std::size_t>(request.trap_point.at(cell));
-        const std::int16_t label = plan.chaotic_label(point, state);
-        if (label == 0) continue;
-        request.label[cell] = label;
-        request.outcome[cell] = static_cast<std::uint8_t>(outcome::attracted);
-    }
-}
-
 /// State layers of cells without a state say so: NaN. A return map is blank where a return failed.
 void blank_states(const scene& scene, const ensemble_request& request) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -130,6 +117,28 @@ void blank_states(const scene& scene, const ensemble_request& request) {
 
 namespace {
 
+/// Results asked of the kernel even where no layer shows them.
+class unseen_results {
+public:
+    unseen_results(const tile_job& job, ensemble_request& request) {
+        want(request.returns, returns_, request.n_cells);
+        const bool is_compared =
+            std::any_of(job.layers.begin(), job.layers.end(),
+                        [](const auto& layer) { return layer.role == layer_role::uncertain; });
+        if (is_compared) want(request.events, events_, request.n_cells);
+    }
+
+private:
+    static void want(std::uint32_t*& result, std::vector<std::uint32_t>& buffer, std::uint64_t n) {
+        if (result != nullptr) return;
+        buffer.resize(n);
+        result = buffer.data();
+    }
+
+    std::vector<std::uint32_t> returns_;
+    std::vector<std::uint32_t> events_;
+};
+
 using layer_buffers = std::vector<std::vector<std::byte>>;
 
 /// All layers of the cells of one request, in its order.
@@ -141,24 +150,17 @@ layer_buffers compute_layers(const tile_job& job, const label_plan& plan, cell_r
     for (const layer_plan& layer : job.layers) {
         bind(request, layer, buffers.emplace_back(n_cells * bytes_of(layer.description.type)));
     }
-    std::vector<std::uint32_t> returns;  // asked of the kernel even where no layer shows them
-    if (request.returns == nullptr) {
-        returns.resize(n_cells);
-        request.returns = returns.data();
-    }
-    std::vector<std::vector<double>> states;  // likewise, where chaotic sets are told by them
-    const std::size_t n_columns = job.what.end_section().columns.size();
-    for (std::size_t c = 0; c < n_columns && !plan.chaotic.empty(); ++c) {
-        if (request.state[c] == nullptr) request.state[c] = states.emplace_back(n_cells).data();
-    }
-    lanes += job.kernel.run(request);
-    if (!plan.chaotic.empty()) label_chaotic(plan, request, n_columns);
+    unseen_results unseen(job, request);
+    lanes += run_labelled(job.what, plan, job.kernel, request);
     blank_states(job.what, request);
     for (std::size_t i = 0; i < job.layers.size(); ++i) {
         if (job.layers[i].role == layer_role::period) {
             fill_periods(plan, request.label, n_cells, buffers[i]);
         } else if (job.layers[i].role == layer_role::immediate) {
             fill_immediate(plan, request, buffers[i]);
+        } else if (job.layers[i].role == layer_role::uncertain) {
+            const auto flags = certainty_of(job.what, plan, job.kernel, request);
+            std::memcpy(buffers[i].data(), flags.data(), flags.size());
         }
     }
     return buffers;

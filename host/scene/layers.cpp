@@ -1,9 +1,11 @@
 // The layers that a scene's map can have.
 #include "host/scene/layers.hpp"
 
+#include "host/map/certainty.hpp"
 #include "kernels/contract/motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace hopscotch {
@@ -11,10 +13,11 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<std::pair<int, std::string>> outcome_flags() {
+template <std::size_t N>
+std::vector<std::pair<int, std::string>> flags_of(const std::array<std::string_view, N>& names) {
     std::vector<std::pair<int, std::string>> flags;
-    for (std::size_t code = 0; code < outcome_names.size(); ++code) {
-        flags.emplace_back(static_cast<int>(code), std::string(outcome_names[code]));
+    for (std::size_t code = 0; code < N; ++code) {
+        flags.emplace_back(static_cast<int>(code), std::string(names[code]));
     }
     return flags;
 }
@@ -48,20 +51,12 @@ layer_plan state_plan(const scene& scene, int index) {
     return result;
 }
 
-std::vector<std::pair<int, std::string>> motion_flags() {
-    std::vector<std::pair<int, std::string>> flags;
-    for (std::size_t code = 0; code < motion_names.size(); ++code) {
-        flags.emplace_back(static_cast<int>(code), std::string(motion_names[code]));
-    }
-    return flags;
-}
-
 /// The layers of a chaos map: one exponent per column of the section.
 void add_exponents(const scene& scene, std::vector<layer_plan>& layers) {
     const auto number = number_type::float64;
     layers.push_back(plan(layer_role::motion, "motion", number_type::uint8, "1",
                           "what the largest Lyapunov exponent says", 255.0));
-    layers.back().description.flags = motion_flags();
+    layers.back().description.flags = flags_of(motion_names);
     layers.push_back(plan(layer_role::exponent, "lyapunov", number, "1",
                           "largest Lyapunov exponent, per return", nan));
     const int n_columns = static_cast<int>(scene.end_section().columns.size());
@@ -101,12 +96,16 @@ std::vector<layer_plan> available_layers(const scene& scene) {
     if (scene.question.kind == "lyapunov") add_exponents(scene, layers);
     layers.push_back(plan(layer_role::outcome, "outcome", number_type::uint8, "1",
                           "why the orbit's computation ended", 255.0));
-    layers.back().description.flags = outcome_flags();
+    layers.back().description.flags = flags_of(outcome_names);
     const int n_columns = static_cast<int>(scene.end_section().columns.size());
     if (scene.question.kind == "orbit_diagram") {
         for (int index = 0; index < n_columns; ++index) layers.push_back(state_plan(scene, index));
         return layers;
     }
+    layers.push_back(plan(layer_role::uncertain, "uncertain", number_type::uint8, "1",
+                          "whether the answer changes when the start moves by a few roundings",
+                          255.0));
+    layers.back().description.flags = flags_of(certainty_names);
     layers.push_back(plan(layer_role::returns, "returns", number_type::uint32, "1",
                           "completed returns", no_count));
     layers.push_back(plan(layer_role::events, "events", number_type::uint32, "1",

@@ -26,7 +26,8 @@ enum class layer_role : std::uint8_t {
     exponent_rate,
     exponent_error,
     exponent_returns,
-    motion
+    motion,
+    uncertain
 };
 
 struct layer_plan {

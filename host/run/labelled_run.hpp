@@ -1,0 +1,16 @@
+// One kernel call with everything that decides labels: the kernel's own certificates and traps,
+// then the chaotic sets, which are told by the last states.
+#pragma once
+
+#include "host/run/backends.hpp"
+#include "host/run/label_plan.hpp"
+#include "host/scene/scene.hpp"
+
+namespace hopscotch {
+
+/// Runs the request. Where the plan has chaotic sets, its label, outcome and returns must be
+/// wanted.
+lane_statistics run_labelled(const scene& scene, const label_plan& plan,
+                             const kernel_choice& kernel, const ensemble_request& request);
+
+}  // namespace hopscotch

@@ -1,0 +1,114 @@
+// The layer `uncertain` on a model whose boundary is known to the last bit.
+#include "host/run/run_map.hpp"
+#include "host/run/uncertain.hpp"
+#include "host/scene/grid.hpp"
+#include "host/store/map_reader.hpp"
+#include "tests/host/fake_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+using namespace hopscotch;
+
+namespace {
+
+constexpr double ulp_of_three = 0x1p-51;
+
+/// height -> height / 2, and up to 1.5 belongs to label 1: the boundary lies at 3, which belongs
+/// to it. Cells k = -n ... n stand `step` apart around it.
+scene around_three(int n, double step, std::string_view law) {
+    const std::string text = fmt::format(R"([model]
+name = "fake_bouncer"
+[model.options]
+law = "{}"
+[[grid.axis]]
+name = "height"
+min = {:.17g}
+max = {:.17g}
+cells = {}
+edges = true
+[start]
+speed = 0
+[question]
+kind = "basins"
+returns = 1
+[output]
+layers = ["label", "uncertain"]
+tile = [10]
+)",
+                                         law, 3.0 - n * step, 3.0 + n * step, 2 * n + 1);
+    return parse_scene(text, "boundary.toml", {}, fake::models());
+}
+
+label_plan plan_of(const scene&, std::span<const std::uint64_t> = {}) {
+    label_plan plan;
+    plan.decided_by = decision::intervals;
+    plan.n_traps = 1;
+    plan.traps = {{0.0, 1.5, 1}};
+    return plan;
+}
+
+std::vector<double> computed_layer(const scene& scene, std::string_view layer) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                       ("hopscotch_uncertain" + std::to_string(getpid()) + ".h5");
+    run_choices choices;
+    choices.file = file;
+    choices.is_quiet = true;
+    choices.existing = if_exists::replace;
+    run_map(scene, choices, {plan_of, {}});
+    const std::vector<double> values = map_reader(file).read_all(layer);
+    std::filesystem::remove(file);
+    return values;
+}
+
+}  // namespace
+
+TEST(uncertain_cells, are_those_whose_label_a_few_roundings_change) {
+    // the start moves by 4 ulp: k + 4 > 0 and k - 4 <= 0. The gain moves by 4 ulp of 1/2, which
+    // moves the boundary by 3 * 2^-50, 6 ulp of the start: k + 6 > 0 and k - 6 <= 0.
+    const int n = 32;
+    const scene scene = around_three(n, ulp_of_three, "steep");
+    const std::vector<double> label = computed_layer(scene, "label");
+    const std::vector<double> uncertain = computed_layer(scene, "uncertain");
+    for (int k = -n; k <= n; ++k) {
+        const auto cell = static_cast<std::size_t>(k + n);
+        EXPECT_EQ(label[cell], k <= 0 ? 1.0 : 0.0) << k;
+        EXPECT_EQ(uncertain[cell], k > -6 && k <= 6 ? 1.0 : 0.0) << k;
+    }
+}
+
+TEST(uncertain_cells, reach_further_where_a_flow_is_integrated_to_a_tolerance) {
+    // the law "plain" counts as integrated; the default tolerance is 1e-10: the gain moves by
+    // 1e-8 * (1/4 + 1/2), the boundary by 6 times that, the start itself by 1e-8 * (1/4 + 3)
+    const int n = 40;
+    const double step = 4e-9;
+    const double reach = 6.0 * 0.75e-8;
+    const scene scene = around_three(n, step, "plain");
+    const std::vector<double> uncertain = computed_layer(scene, "uncertain");
+    for (int k = -n; k <= n; ++k) {
+        const double distance = std::abs(k * step);
+        if (std::abs(distance - reach) < step) continue;  // within a cell of the reach
+        EXPECT_EQ(uncertain[static_cast<std::size_t>(k + n)], distance < reach ? 1.0 : 0.0) << k;
+    }
+}
+
+TEST(uncertain_cells, can_be_asked_for_one_by_one) {
+    const int n = 32;
+    const scene scene = around_three(n, ulp_of_three, "steep");
+    const label_plan plan = plan_of(scene);
+    const kernel_choice kernel{backend::scalar, 1, fake::run};
+    const std::vector<std::uint64_t> cells{0, n - 6, n - 5, n, n + 6, n + 7};
+    EXPECT_EQ(certainty_of(scene, plan, kernel, cells),
+              (std::vector<std::uint8_t>{0, 0, 1, 1, 1, 0}));
+}
+
+TEST(uncertain_cells, move_by_roundings_or_by_the_tolerance) {
+    EXPECT_EQ(displacement_of(3.0, 0.0, 0.0), 4.0 * ulp_of_three);
+    EXPECT_EQ(displacement_of(-3.0, 0.0, 0.0), 4.0 * ulp_of_three);
+    EXPECT_EQ(displacement_of(1e-9, 3.0, 0.0), 4.0 * ulp_of_three);  // of the axis
+    EXPECT_DOUBLE_EQ(displacement_of(0.75, 0.0, 1e-9), 1e-7);
+}
