@@ -39,6 +39,8 @@ void recompute(const verify_arguments& given) {
                is_chaos_map(scene) ? "motion in dd" : "dd; disputed ones mp50");
     fmt::print("wrong             {}  share {:.17g}, 95 % interval {:.17g} to {:.17g}\n",
                report.n_wrong, report.share, report.lowest, report.highest);
+    fmt::print("uncertain         {}  wrong without being so {}\n", report.n_uncertain,
+               report.n_wrong_certain);
     for (const cell_verdict& verdict : report.wrong) {
         fmt::print("  stored {} computed {}  {}\n", verdict.stored, verdict.computed,
                    replay_command(scene, given.file, verdict.cell));

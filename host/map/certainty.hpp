@@ -10,7 +10,8 @@ namespace hopscotch {
 enum class certainty : std::uint8_t {
     certain,
     answer_changes,  // another label, outcome, motion (or number of steps to a fall)
-    events_change,   // the same answer with another number of events: a guard was passed that close
+    events_change,   // the same answer after another number of returns or events: a guard, or the
+                     // edge of a trap, was passed that close
 };
 
 inline constexpr std::array<std::string_view, 3> certainty_names{"certain", "answer_changes",

@@ -7,6 +7,7 @@
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/truth_orbits.hpp"
+#include "host/run/uncertain.hpp"
 #include "host/scene/grid.hpp"
 
 #include <algorithm>
@@ -28,6 +29,7 @@ struct stored_cell {
 struct judged_cell {
     cell_verdict verdict;
     cell_errors errors;
+    bool is_uncertain = false;  // see uncertain.hpp
 };
 
 int compared(const scene& scene, const orbit_answer& answer) {
@@ -123,6 +125,8 @@ audit_report report_of(std::span<const judged_cell> cells, std::span<const layer
     std::vector<cell_errors> errors;
     for (const judged_cell& cell : cells) {
         if (!cell.verdict.agrees()) report.wrong.push_back(cell.verdict);
+        if (!cell.verdict.agrees() && !cell.is_uncertain) ++report.n_wrong_certain;
+        if (cell.is_uncertain) ++report.n_uncertain;
         errors.push_back(cell.errors);
     }
     report.n_wrong = report.wrong.size();
@@ -164,9 +168,15 @@ audit_report audit(const scene& scene, const label_plan& plan, const tile_source
     const std::vector<layer_plan> numeric = numeric_layers(scene);
     const std::vector<stored_cell> stored = stored_cells(scene, numeric, tiles, cells);
     std::vector<judged_cell> judged(cells.size());
+    const kernel_choice kernel = kernel_of(scene, "auto");
     tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
         if (stop_condition::is_interrupted()) throw interruption();
-        judged[i] = judge_cell(scene, plan, cells[i], stored[i], numeric);
+        const label_plan own =
+            plan.of_cell ? plan.of_cell(coordinates_of(scene, cells[i])) : label_plan{};
+        const label_plan& used = plan.of_cell ? own : plan;
+        judged[i] = judge_cell(scene, used, cells[i], stored[i], numeric);
+        judged[i].is_uncertain =
+            certainty_of(scene, used, kernel, std::span(&cells[i], 1)).front() != 0;
     });
     audit_report report = report_of(judged, numeric);
     report.seed = seed;
@@ -182,6 +192,10 @@ attribute_list attributes_of(const scene& scene, const audit_report& report,
         {"audit_interval",
          fmt::format("{:.17g} to {:.17g} (95 %, Clopper-Pearson)", report.lowest, report.highest)},
         {"audit_method", is_chaos_map(scene) ? "motion in dd" : "dd, disputed cells mp50"}};
+    const auto [fewest, most] = confidence_of(report.n_uncertain, report.n_cells);
+    attributes.emplace_back("audit_uncertain", fmt::format("{} (share {:.17g} to {:.17g})",
+                                                           report.n_uncertain, fewest, most));
+    attributes.emplace_back("audit_wrong_certain", fmt::format("{}", report.n_wrong_certain));
     for (const layer_error& layer : report.errors) {
         attributes.emplace_back(
             "audit_error_" + layer.layer,

@@ -37,7 +37,9 @@ struct audit_report {
     double share = 0.0;   // of wrong cells
     double lowest = 0.0;  // its 95 % confidence interval, see confidence.hpp
     double highest = 1.0;
-    std::vector<layer_error> errors;  // of the numeric layers
+    std::uint64_t n_uncertain = 0;      // cells flagged as in the layer `uncertain`
+    std::uint64_t n_wrong_certain = 0;  // wrong ones among the others
+    std::vector<layer_error> errors;    // of the numeric layers
     std::uint64_t worst = 0;  // the first wrong cell, or else that of the largest relative error
 };
 

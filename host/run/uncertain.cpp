@@ -154,10 +154,11 @@ private:
                first_.returns[cell] != second.returns[cell];
     }
 
-    /// A label may be decided one return earlier or later where a trap ends; that is no guard.
+    /// In a fractal basin all moved starts may happen to end alike; their numbers of returns and
+    /// events give them away.
     bool has_other_events(const ensemble_request& second, std::uint64_t cell) const {
-        return !is_chaos_map(scene_) && first_.returns[cell] == second.returns[cell] &&
-               first_.events[cell] != second.events[cell];
+        return !is_chaos_map(scene_) && (first_.returns[cell] != second.returns[cell] ||
+                                         first_.events[cell] != second.events[cell]);
     }
 
     const scene& scene_;
@@ -170,7 +171,7 @@ private:
 double displacement_of(double x, double scale, double tolerance) {
     const double size = std::max(std::abs(x), scale);
     const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
-    return std::max(4.0 * ulp, 100.0 * tolerance * (0.25 + size));
+    return std::max(16.0 * ulp, 100.0 * tolerance * (0.25 + size));
 }
 
 std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,

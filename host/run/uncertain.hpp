@@ -4,7 +4,9 @@
 // Every cell is computed again by the same kernel from moved starts: each axis by itself, up and
 // down, and all fixed numbers at once. An orbit's roundings act like a small displacement of its
 // start, unless it contracts so fast that a displaced start is forgotten before it reaches the
-// boundary; moving the parameters acts at every return, as roundings do. Looking only at cells with
+// boundary; moving the parameters acts at every return, as roundings do. Four ulp are too few: of
+// cells one ulp apart at boundaries, wrong labels went unflagged where orbits dwell on a ghost of a
+// fixed point (tests/hard/test_wrong_labels.cpp). Looking only at cells with
 // neighbours of another label would be cheaper and miss filaments thinner than a cell.
 #pragma once
 
@@ -19,7 +21,7 @@
 
 namespace hopscotch {
 
-/// How far a number moves: 4 ulp of the larger of |x| and `scale`, and where a flow is integrated
+/// How far a number moves: 16 ulp of the larger of |x| and `scale`, and where a flow is integrated
 /// to `tolerance` > 0 at least 100 (1/4 + that size) tolerances, ten times what a return may be off
 /// by (kernels/integrators/taylor.hpp).
 double displacement_of(double x, double scale, double tolerance);

@@ -93,7 +93,8 @@ inline std::vector<double> changes_on(const scene& line, const label_plan& plan,
         const double at = change_between(line, plan, kernel, value_of(coarse.axes[0], i - 1),
                                          value_of(coarse.axes[0], i));
         // next to zero cells one ulp apart would be finer than the numbers they are added to
-        if (std::abs(at) > 1e-3 * (line.axes[0].highest - line.axes[0].lowest)) changes.push_back(at);
+        if (std::abs(at) > 1e-3 * (line.axes[0].highest - line.axes[0].lowest))
+            changes.push_back(at);
     }
     return changes;
 }

@@ -68,16 +68,16 @@ std::vector<double> computed_layer(const scene& scene, std::string_view layer) {
 }  // namespace
 
 TEST(uncertain_cells, are_those_whose_label_a_few_roundings_change) {
-    // the start moves by 4 ulp: k + 4 > 0 and k - 4 <= 0. The gain moves by 4 ulp of 1/2, which
-    // moves the boundary by 3 * 2^-50, 6 ulp of the start: k + 6 > 0 and k - 6 <= 0.
-    const int n = 32;
+    // the start moves by 16 ulp: k + 16 > 0 and k - 16 <= 0. The gain moves by 16 ulp of 1/2, which
+    // moves the boundary by 3 * 2^-48, 24 ulp of the start: k + 24 > 0 and k - 24 <= 0.
+    const int n = 40;
     const scene scene = around_three(n, ulp_of_three, "steep");
     const std::vector<double> label = computed_layer(scene, "label");
     const std::vector<double> uncertain = computed_layer(scene, "uncertain");
     for (int k = -n; k <= n; ++k) {
         const auto cell = static_cast<std::size_t>(k + n);
         EXPECT_EQ(label[cell], k <= 0 ? 1.0 : 0.0) << k;
-        EXPECT_EQ(uncertain[cell], k > -6 && k <= 6 ? 1.0 : 0.0) << k;
+        EXPECT_EQ(uncertain[cell], k > -24 && k <= 24 ? 1.0 : 0.0) << k;
     }
 }
 
@@ -101,14 +101,14 @@ TEST(uncertain_cells, can_be_asked_for_one_by_one) {
     const scene scene = around_three(n, ulp_of_three, "steep");
     const label_plan plan = plan_of(scene);
     const kernel_choice kernel{backend::scalar, 1, fake::run};
-    const std::vector<std::uint64_t> cells{0, n - 6, n - 5, n, n + 6, n + 7};
+    const std::vector<std::uint64_t> cells{0, n - 24, n - 23, n, n + 24, n + 25};
     EXPECT_EQ(certainty_of(scene, plan, kernel, cells),
               (std::vector<std::uint8_t>{0, 0, 1, 1, 1, 0}));
 }
 
 TEST(uncertain_cells, move_by_roundings_or_by_the_tolerance) {
-    EXPECT_EQ(displacement_of(3.0, 0.0, 0.0), 4.0 * ulp_of_three);
-    EXPECT_EQ(displacement_of(-3.0, 0.0, 0.0), 4.0 * ulp_of_three);
-    EXPECT_EQ(displacement_of(1e-9, 3.0, 0.0), 4.0 * ulp_of_three);  // of the axis
+    EXPECT_EQ(displacement_of(3.0, 0.0, 0.0), 16.0 * ulp_of_three);
+    EXPECT_EQ(displacement_of(-3.0, 0.0, 0.0), 16.0 * ulp_of_three);
+    EXPECT_EQ(displacement_of(1e-9, 3.0, 0.0), 16.0 * ulp_of_three);  // of the axis
     EXPECT_DOUBLE_EQ(displacement_of(0.75, 0.0, 1e-9), 1e-7);
 }
