@@ -176,7 +176,7 @@ audit_report audit(const scene& scene, const label_plan& plan, const tile_source
         const label_plan& used = plan.of_cell ? own : plan;
         judged[i] = judge_cell(scene, used, cells[i], stored[i], numeric);
         judged[i].is_uncertain =
-            certainty_of(scene, used, kernel, std::span(&cells[i], 1)).front() != 0;
+            certainty_of(scene, used, kernel.run, std::span(&cells[i], 1)).front() != 0;
     });
     audit_report report = report_of(judged, numeric);
     report.seed = seed;

@@ -25,9 +25,9 @@ void label_chaotic(const label_plan& plan, const ensemble_request& request, std:
 
 }  // namespace
 
-lane_statistics run_labelled(const scene& scene, const label_plan& plan,
-                             const kernel_choice& kernel, const ensemble_request& request) {
-    if (plan.chaotic.empty()) return kernel.run(request);
+lane_statistics run_labelled(const scene& scene, const label_plan& plan, const kernel_run& run,
+                             const ensemble_request& request) {
+    if (plan.chaotic.empty()) return run(request);
     ensemble_request complete = request;
     std::vector<std::vector<double>> states;  // asked for even where no layer shows them
     const std::size_t n_columns = scene.end_section().columns.size();
@@ -36,7 +36,7 @@ lane_statistics run_labelled(const scene& scene, const label_plan& plan,
             complete.state[c] = states.emplace_back(request.n_cells).data();
         }
     }
-    const lane_statistics lanes = kernel.run(complete);
+    const lane_statistics lanes = run(complete);
     label_chaotic(plan, complete, n_columns);
     return lanes;
 }

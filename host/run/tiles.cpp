@@ -151,7 +151,8 @@ layer_buffers compute_layers(const tile_job& job, const label_plan& plan, cell_r
         bind(request, layer, buffers.emplace_back(n_cells * bytes_of(layer.description.type)));
     }
     unseen_results unseen(job, request);
-    lanes += run_labelled(job.what, plan, job.kernel, request);
+    const auto run = [&](const ensemble_request& wanted) { return job.kernel.run(wanted); };
+    lanes += run_labelled(job.what, plan, run, request);
     blank_states(job.what, request);
     for (std::size_t i = 0; i < job.layers.size(); ++i) {
         if (job.layers[i].role == layer_role::period) {
@@ -159,7 +160,7 @@ layer_buffers compute_layers(const tile_job& job, const label_plan& plan, cell_r
         } else if (job.layers[i].role == layer_role::immediate) {
             fill_immediate(plan, request, buffers[i]);
         } else if (job.layers[i].role == layer_role::uncertain) {
-            const auto flags = certainty_of(job.what, plan, job.kernel, request);
+            const auto flags = certainty_of(job.what, plan, run, request);
             std::memcpy(buffers[i].data(), flags.data(), flags.size());
         }
     }

@@ -1,7 +1,6 @@
 // Moves the starts of a request, runs it again, compares.
 #include "host/run/uncertain.hpp"
 
-#include "host/run/labelled_run.hpp"
 #include "host/run/requests.hpp"
 #include "host/scene/grid.hpp"
 
@@ -175,47 +174,46 @@ double displacement_of(double x, double scale, double tolerance) {
 }
 
 std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,
-                                       const kernel_choice& kernel,
-                                       const ensemble_request& results) {
+                                       const kernel_run& run, const ensemble_request& results) {
     const bool integrates =
-        scene.model->integrates != nullptr && scene.model->integrates(kernel.variant);
+        scene.model->integrates != nullptr && scene.model->integrates(variant_of(scene));
     const double tolerance = integrates ? scene.accuracy.tolerance : 0.0;
     comparison compared(scene, results);
     answers found(results.n_cells);
-    const auto run = [&](moved_request& again) {
+    const auto look = [&](moved_request& again) {
         found.bind(again.request(), scene);
-        run_labelled(scene, plan, kernel, again.request());
+        run_labelled(scene, plan, run, again.request());
         compared.compare(again.request());
     };
     for (const double sign : {1.0, -1.0}) {
         for (const scene_axis& axis : scene.axes) {
             moved_request again(scene, results, tolerance);
             again.move_axis(axis, sign);
-            run(again);
+            look(again);
         }
         moved_request again(scene, results, tolerance);
         again.move_fixed(sign);
-        run(again);
+        look(again);
     }
     return std::move(compared).flags();
 }
 
 std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,
-                                       const kernel_choice& kernel,
+                                       const kernel_run& run,
                                        std::span<const std::uint64_t> cells) {
     std::vector<std::uint8_t> flags;
     if (plan.of_cell) {
         for (const std::uint64_t cell : cells) {
             const label_plan own = plan.of_cell(coordinates_of(scene, cell));
-            flags.push_back(certainty_of(scene, own, kernel, std::span(&cell, 1)).front());
+            flags.push_back(certainty_of(scene, own, run, std::span(&cell, 1)).front());
         }
         return flags;
     }
     cell_request request = request_of(scene, plan, cells);
     answers first(cells.size());
     first.bind(request.request, scene);
-    run_labelled(scene, plan, kernel, request.request);
-    return certainty_of(scene, plan, kernel, request.request);
+    run_labelled(scene, plan, run, request.request);
+    return certainty_of(scene, plan, run, request.request);
 }
 
 }  // namespace hopscotch

@@ -11,8 +11,8 @@
 #pragma once
 
 #include "host/map/certainty.hpp"
-#include "host/run/backends.hpp"
 #include "host/run/label_plan.hpp"
+#include "host/run/labelled_run.hpp"
 #include "host/scene/scene.hpp"
 
 #include <cstdint>
@@ -33,12 +33,10 @@ double displacement_of(double x, double scale, double tolerance);
 ///                 exponents
 /// \return         codes of `certainty`
 std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,
-                                       const kernel_choice& kernel,
-                                       const ensemble_request& results);
+                                       const kernel_run& run, const ensemble_request& results);
 
 /// The certainty of some cells of the map, by index in C order.
 std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,
-                                       const kernel_choice& kernel,
-                                       std::span<const std::uint64_t> cells);
+                                       const kernel_run& run, std::span<const std::uint64_t> cells);
 
 }  // namespace hopscotch

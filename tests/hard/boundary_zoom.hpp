@@ -55,7 +55,7 @@ inline std::vector<int> answers_of(const scene& line, const label_plan& plan,
     if (line.question.has_labels) request.request.label = label.data();
     request.request.outcome = end.data();
     request.request.returns = returns.data();
-    run_labelled(line, plan, kernel, request.request);
+    run_labelled(line, plan, kernel.run, request.request);
     std::vector<int> answers;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         answers.push_back(line.question.has_labels ? label[i] : end[i]);

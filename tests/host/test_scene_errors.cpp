@@ -180,10 +180,12 @@ TEST(scene_errors, a_mistake_in_question_accuracy_or_output_is_named) {
         {"layer", "[question]\nkind = \"return_map\"\n[output]\nlayers = [\"label\"]\n",
          "s.toml:13: output.layers = [\"label\"] (no layer \"label\" for the question return_map "
          "on "
-         "fake_bouncer); one of outcome, returns, events, time, last_height, speed, bounces?"},
+         "fake_bouncer); one of outcome, uncertain, returns, events, time, last_height, speed, "
+         "bounces?"},
         {"misspelt layer", "[question]\nkind = \"basins\"\n[output]\nlayers = [\"lable\"]\n",
          "s.toml:13: output.layers = [\"lable\"] (no layer \"lable\" for the question basins on "
-         "fake_bouncer); \"label\", one of label, period, outcome, returns, events, time, "
+         "fake_bouncer); \"label\", one of label, period, outcome, uncertain, returns, events, "
+         "time, "
          "last_height, "
          "speed, bounces?"},
         {"tile", "[question]\nkind = \"basins\"\n[output]\ntile = [4, 4]\n",

@@ -100,9 +100,8 @@ TEST(uncertain_cells, can_be_asked_for_one_by_one) {
     const int n = 32;
     const scene scene = around_three(n, ulp_of_three, "steep");
     const label_plan plan = plan_of(scene);
-    const kernel_choice kernel{backend::scalar, 1, fake::run};
     const std::vector<std::uint64_t> cells{0, n - 24, n - 23, n, n + 24, n + 25};
-    EXPECT_EQ(certainty_of(scene, plan, kernel, cells),
+    EXPECT_EQ(certainty_of(scene, plan, fake::run, cells),
               (std::vector<std::uint8_t>{0, 0, 1, 1, 1, 0}));
 }
 
