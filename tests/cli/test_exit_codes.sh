@@ -29,7 +29,9 @@ claim_contains "and it is named with file, line and suggestion" \
 echo "no map" >text.h5
 claim_exit "a file that is no map is the store's" 4 hopscotch info text.h5
 claim_exit "a file that is not there is the store's" 4 hopscotch verify none.h5
+export CUDA_VISIBLE_DEVICES=  # hides a GPU, where there is one
 claim_exit "a backend that is not there is the device's" 5 hopscotch run "$scene" --backend cuda
+claim_contains "and it is told what can be had" "--backend auto?" err.txt
 claim_exit "no time left is resumable" 75 hopscotch run "$scene" -o late.h5 --walltime 0:00:00 --quiet
 claim_equal "and nothing is left behind" "" "$(ls -d late* 2>/dev/null)"
 exit $failed
