@@ -14,7 +14,7 @@ void require(cudaError_t status, const char* call) {
     if (status == cudaSuccess) return;
     cudaGetLastError();  // an error that the next call could survive is told once
     throw device_error(std::string(call) + " (" + cudaGetErrorName(status) + ": " +
-                       cudaGetErrorString(status) + "); --backend auto?");
+                       cudaGetErrorString(status) + ")");
 }
 
 int attribute(cudaDeviceAttr which, int device) {
@@ -31,6 +31,11 @@ public:
         int n = 0;
         const cudaError_t status = cudaGetDeviceCount(&n);
         if (status == cudaErrorNoDevice) return 0;
+        int driver = 0;
+        if (status == cudaErrorInsufficientDriver && cudaDriverGetVersion(&driver) == cudaSuccess &&
+            driver == 0) {
+            throw device_error("there is no NVIDIA driver");
+        }
         require(status, "cudaGetDeviceCount");
         return n;
     }

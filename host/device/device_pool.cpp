@@ -49,7 +49,7 @@ private:
 
 device_pool::device_pool(device_runtime& runtime, const device_limits& limits) : limits_(limits) {
     const int n_devices = runtime.n_devices();
-    if (n_devices == 0) throw device_error("no CUDA device (none is visible); --backend auto?");
+    if (n_devices == 0) throw device_error("there is no CUDA device");
     for (int device = 0; device < n_devices; ++device) {
         const device_description description = runtime.describe(device);
         names_.push_back(description.name);

@@ -50,7 +50,7 @@ std::uint64_t device_worker::most_cells(const device_layout& layout) const {
     if (n > 0) return n;
     throw device_error(
         fmt::format("device {} (its tables of {} bytes do not fit into the {} bytes that a worker "
-                    "may take); --backend auto?",
+                    "may take)",
                     device_, layout.table_bytes(), most_bytes_));
 }
 

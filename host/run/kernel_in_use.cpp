@@ -1,6 +1,7 @@
 // From the device to the processor.
 #include "host/run/kernel_in_use.hpp"
 
+#include <string>
 #include <utility>
 
 namespace hopscotch {
@@ -13,7 +14,7 @@ lane_statistics kernel_in_use::run(const ensemble_request& request) {
         try {
             return first_.run(request);
         } catch (const device_error& error) {
-            if (!behind_) throw;
+            if (!behind_) throw device_error(std::string(error.what()) + "; --backend auto?");
             const std::lock_guard lock(mutex_);
             if (failure_.empty()) failure_ = error.what();  // the later ones follow from it
             has_failed_ = true;
