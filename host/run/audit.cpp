@@ -4,6 +4,7 @@
 #include "host/map/numbers.hpp"
 #include "host/run/confidence.hpp"
 #include "host/run/estimate.hpp"
+#include "host/run/refinement.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/truth_orbits.hpp"
@@ -24,6 +25,7 @@ namespace {
 struct stored_cell {
     int verdict = 0;
     std::vector<double> numbers;
+    bool is_inherited = false;  // of a coarser cell: refinement has not computed it
 };
 
 struct judged_cell {
@@ -72,6 +74,7 @@ std::vector<stored_cell> stored_cells(const scene& scene, std::span<const layer_
                 return number_at(layout.layers[layer].type, data.layers[layer].data(), at);
             };
             values[i].verdict = static_cast<int>(value(judged_layer(scene)));
+            values[i].is_inherited = scene.refine > 0 && value("level") == inherited_level;
             for (const layer_plan& layer : numeric) {
                 values[i].numbers.push_back(value(layer.description.name));
             }
@@ -127,7 +130,7 @@ audit_report report_of(std::span<const judged_cell> cells, std::span<const layer
         if (!cell.verdict.agrees()) report.wrong.push_back(cell.verdict);
         if (!cell.verdict.agrees() && !cell.is_uncertain) ++report.n_wrong_certain;
         if (cell.is_uncertain) ++report.n_uncertain;
-        errors.push_back(cell.errors);
+        if (cell.errors.errors.size() == numeric.size()) errors.push_back(cell.errors);
     }
     report.n_wrong = report.wrong.size();
     if (report.n_cells > 0) {
@@ -155,7 +158,7 @@ std::string_view judged_layer(const scene& scene) {
 }
 
 cell_verdict judge(const scene& scene, const label_plan& plan, std::uint64_t cell, int stored) {
-    return judge_cell(scene, plan, cell, {stored, {}}, {}).verdict;
+    return judge_cell(scene, plan, cell, {stored, {}, false}, {}).verdict;
 }
 
 std::vector<std::uint64_t> audited_cells(const scene& scene, std::uint64_t n, std::uint64_t seed) {
@@ -177,6 +180,7 @@ audit_report audit(const scene& scene, const label_plan& plan, const tile_source
         judged[i] = judge_cell(scene, used, cells[i], stored[i], numeric);
         judged[i].is_uncertain =
             certainty_of(scene, used, kernel.run, std::span(&cells[i], 1)).front() != 0;
+        if (stored[i].is_inherited) judged[i].errors.errors.clear();  // it has no numbers
     });
     audit_report report = report_of(judged, numeric);
     report.seed = seed;

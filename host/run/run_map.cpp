@@ -6,6 +6,7 @@
 #include "host/run/device_error.hpp"
 #include "host/run/orbit_diagram.hpp"
 #include "host/run/plan_digest.hpp"
+#include "host/run/refinement.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/tile_pipeline.hpp"
@@ -14,6 +15,8 @@
 #include "host/scene/questions.hpp"
 
 #include <algorithm>
+#include <mutex>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -32,6 +35,14 @@ void set_shares(std::vector<attractor_row>& attractors, const value_counts& labe
     }
 }
 
+attribute_list refinement_attributes(const scene& scene, const run_report& report) {
+    const double saved =
+        static_cast<double>(report.n_inherited) / static_cast<double>(report.n_cells);
+    return {{"refine_levels", fmt::format("{}", scene.refine)},
+            {"refine_computed_cells", fmt::format("{}", report.n_cells - report.n_inherited)},
+            {"refine_saved_share", fmt::format("{:.17g}", saved)}};
+}
+
 void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hooks, map_run& run,
                 run_report& report) {
     if (scene.question.has_labels) report.labels = run.counts("label");
@@ -47,6 +58,11 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
     if (hooks.audit && scene.accuracy.audit_cells > 0) report.audit = hooks.audit(scene, plan, run);
     report.hash = run.hash();
     attribute_list attributes = report.audit;
+    if (scene.refine > 0) {
+        report.n_inherited = run.counts("level")[inherited_level];
+        const attribute_list refined = refinement_attributes(scene, report);
+        attributes.insert(attributes.end(), refined.begin(), refined.end());
+    }
     if (!report.device_failure.empty()) {
         attributes.emplace_back("backend", report.backend);
         attributes.emplace_back("device_failure", report.device_failure);
@@ -66,6 +82,9 @@ double idle_share(const std::vector<double>& seconds) {
 
 /// Name under which the plan of a second search is kept.
 constexpr const char* kept_second_plan = "second_plan";
+
+/// Name under which is kept that the rounds of refinement have begun.
+constexpr const char* kept_refining = "refining";
 
 /// One run by a team, seen from one rank. The members are called in the order they stand here.
 class team_run {
@@ -97,11 +116,18 @@ public:
         report_.is_part_done = !choices_.part.is_whole();
         if (report_.is_part_done) return report_;
         if (!compute(search_again())) return report_;
+        if (!refine()) return report_;
         finish();
         return report_;
     }
 
 private:
+    std::vector<std::uint64_t> shape() const {
+        std::vector<std::uint64_t> cells;
+        for (const axis& along : layout_.axes) cells.push_back(along.size());
+        return cells;
+    }
+
     /// Rank 0 checks what is there, the others then join it.
     void open() {
         require_one_scene();
@@ -176,19 +202,72 @@ private:
                           "go on there, or begin anew with --force");
     }
 
+    tile_job job() { return {scene_, plan_, layout_, layers_, kernel_}; }
+
+    /// Cells that the first pass computes in a tile.
+    std::uint64_t n_cells_of(std::uint64_t tile) const {
+        return coarse_cells_in(box_of(layout_, tile), scene_.refine);
+    }
+
     /// Computes tiles together; true where all of them are done.
     bool compute(const std::vector<std::uint64_t>& tiles) {
+        const tile_job work = job();
+        return compute(tiles, [&](const tile_box& box) -> std::optional<tile_result> {
+            return scene_.refine > 0 ? compute_coarse(work, box) : compute_tile(work, box);
+        });
+    }
+
+    /// The rounds after the coarse grid, until one finds no boundary that is not known. A resumed
+    /// run goes through all of them again: what is there is not computed twice.
+    bool refine() {
+        if (scene_.refine == 0) return true;
+        ranks_.together([&] {
+            if (ranks_.is_first()) run_->keep(kept_refining, "1");
+        });
+        const tile_job work = job();
+        refinement rounds(work, *run_);
+        std::vector<std::uint64_t> tiles(layout_.n_tiles());
+        std::iota(tiles.begin(), tiles.end(), std::uint64_t{0});
+        for (int round = 1; !tiles.empty(); round += round <= scene_.refine ? 1 : 0) {
+            std::vector<std::uint64_t> changed;
+            std::mutex mutex;
+            const bool is_done = compute(tiles, [&](const tile_box& box) {
+                std::optional<tile_result> found = rounds.compute(box, round);
+                if (found) found->seconds += run_->seconds(box.index);
+                const std::lock_guard guard(mutex);
+                if (found) changed.push_back(box.index);
+                return found;
+            });
+            if (!is_done) return false;
+            double n_changed = 0.0;
+            for (const double each : ranks_.from_all(static_cast<double>(changed.size()))) {
+                n_changed += each;
+            }
+            if (ranks_.size() > 1) rounds.forget_all();
+            rounds.forget(changed);
+            if (round <= scene_.refine) continue;
+            // the last round is gone through until nothing changes
+            if (n_changed == 0.0) return true;
+            if (ranks_.size() == 1) tiles = with_neighbours(layout_, changed);
+        }
+        return true;
+    }
+
+    /// A pass over tiles; true where all of them are done.
+    bool compute(const std::vector<std::uint64_t>& tiles, const tile_work& work) {
         std::uint64_t n_wanted = 0;
-        for (const std::uint64_t tile : tiles) n_wanted += box_of(layout_, tile).n_cells();
-        progress_line line(layout_.n_cells(), layout_.n_cells() - n_wanted,
-                           choices_.is_quiet || !ranks_.is_first());
-        const tile_job job{scene_, plan_, layout_, layers_, kernel_};
+        for (const std::uint64_t tile : tiles) n_wanted += n_cells_of(tile);
+        const tile_box whole{0, std::vector<std::uint64_t>(layout_.axes.size(), 0), shape()};
+        const std::uint64_t n_all = coarse_cells_in(whole, scene_.refine);
+        const bool is_round = n_passes_++ > 0 && scene_.refine > 0;  // nobody knows how many
+        progress_line line(n_all, n_all - std::min(n_wanted, n_all),
+                           choices_.is_quiet || is_round || !ranks_.is_first());
         const auto queue =
             ranks_.open_queue(tiles, [&](const run_tally& tally) { line.show(tally); });
         const double begin = stop_.elapsed();
         double end = begin;
         ranks_.together([&] {
-            compute_tiles(job, *queue, *run_, stop_, n_threads_);
+            compute_tiles(job(), work, *queue, *run_, stop_, n_threads_);
             end = stop_.elapsed();
         });
         const run_tally total = queue->close();
@@ -198,7 +277,7 @@ private:
         report_.n_missing = tiles.size() - total.tiles;
         tell_failed_devices();
         ranks_.together([&] {
-            if (ranks_.is_first() && ranks_.size() > 1) run_->rescan();
+            if (ranks_.is_first() && ranks_.size() > 1) run_->rescan(tiles);
         });
         return report_.n_missing == 0;
     }
@@ -221,6 +300,9 @@ private:
     /// the tiles to compute once more: those with such cells, if new attractors were found.
     std::vector<std::uint64_t> search_again() {
         if (!hooks_.plan || plan_.decided_by != decision::ellipsoids || plan_.of_cell) return {};
+        std::vector<std::uint64_t> is_refining;  // then the coarse grid has been searched
+        if (ranks_.is_first()) is_refining = {run_->kept(kept_refining).empty() ? 0U : 1U};
+        if (ranks_.from_first(is_refining)[0] == 1) return {};
         open_cells open;
         ranks_.together([&] {
             if (ranks_.is_first()) open = find_open_cells(scene_, *run_);
@@ -267,6 +349,7 @@ private:
     std::vector<std::uint64_t> missing_;
     std::vector<std::uint64_t> searched_;
     label_plan plan_;
+    int n_passes_ = 0;
     run_report report_;
 };
 

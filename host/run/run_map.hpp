@@ -52,6 +52,7 @@ struct run_report {
     int n_threads = 1;         // of all ranks
     double idle_at_end = 0.0;  // share of the ranks' time after their queue was dry
     std::vector<attractor_row> attractors;
+    std::uint64_t n_inherited = 0;  // cells that refinement has not computed
     value_counts labels;
     value_counts motions;
     value_counts outcomes;

@@ -110,6 +110,12 @@ std::string text_of(const scene& scene, const run_report& report) {
             report.n_ranks, report.n_threads, 100.0 * busy_share(report),
             100.0 * report.idle_at_end);
     }
+    if (scene.refine > 0) {
+        const double saved =
+            static_cast<double>(report.n_inherited) / static_cast<double>(report.n_cells);
+        text += fmt::format("refinement       {} levels, {:.2f} % of the cells computed\n",
+                            scene.refine, 100.0 * (1.0 - saved));
+    }
     append_shares(text, "labels", label_shares(report));
     append_shares(text, "motion", motion_shares(report));
     append_shares(text, "outcomes", outcome_shares(report));
@@ -138,6 +144,11 @@ std::string json_of(const scene& scene, const run_report& report) {
     add("threads", fmt::format("{}", report.n_threads));
     add("busy", fmt::format("{:.17g}", busy_share(report)));
     add("idle_at_end", fmt::format("{:.17g}", report.idle_at_end));
+    if (scene.refine > 0) {
+        add("refine_levels", fmt::format("{}", scene.refine));
+        add("refine_saved_share", fmt::format("{:.17g}", static_cast<double>(report.n_inherited) /
+                                                             static_cast<double>(report.n_cells)));
+    }
     add("labels", json_shares(label_shares(report)));
     if (!report.motions.empty()) add("motions", json_shares(motion_shares(report)));
     add("outcomes", json_shares(outcome_shares(report)));

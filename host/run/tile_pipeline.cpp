@@ -14,14 +14,16 @@ namespace hopscotch {
 namespace {
 
 struct finished_tile {
-    compressed_tile tile;
+    std::optional<compressed_tile> tile;  // nothing where it stays as it was
     lane_statistics lanes;
+    std::uint64_t n_computed = 0;
 };
 
 class tile_pipeline {
 public:
-    tile_pipeline(const tile_job& job, tile_queue& queue, map_run& run, const stop_condition& stop)
-        : job_(job), queue_(queue), run_(run), stop_(stop) {}
+    tile_pipeline(const tile_job& job, const tile_work& work, tile_queue& queue, map_run& run,
+                  const stop_condition& stop)
+        : job_(job), work_(work), queue_(queue), run_(run), stop_(stop) {}
 
     void compute(int n_threads) {
         using tbb::filter_mode;
@@ -47,16 +49,23 @@ private:
     }
 
     finished_tile finish(std::uint64_t index) {
-        const tile_result result = compute_tile(job_, box_of(job_.layout, index));
+        const std::optional<tile_result> result = work_(box_of(job_.layout, index));
+        if (!result) return {};
         const int level = job_.what.output.compression;
-        return {compress(job_.layout, result.data, level, result.seconds), result.lanes};
+        return {compress(job_.layout, result->data, level, result->seconds), result->lanes,
+                result->n_computed};
     }
 
     void write(const finished_tile& finished) {
-        run_.put(finished.tile);
-        const tile_summary& summary = finished.tile.summary;
+        if (!finished.tile) {
+            run_tally unchanged;
+            unchanged.tiles = 1;
+            return queue_.count(unchanged);
+        }
+        run_.put(*finished.tile);
+        const tile_summary& summary = finished.tile->summary;
         if (summary.seconds > slowest_) slowest_ = summary.seconds;
-        run_tally tally{1, finished.tile.box.n_cells(), 0, finished.lanes, summary.seconds};
+        run_tally tally{1, finished.n_computed, 0, finished.lanes, summary.seconds};
         for (std::size_t i = 0; i < job_.layers.size(); ++i) {
             if (job_.layers[i].role != layer_role::outcome) continue;
             for (const auto& [code, n] : summary.counts[i]) {
@@ -67,6 +76,7 @@ private:
     }
 
     const tile_job& job_;
+    const tile_work& work_;
     tile_queue& queue_;
     map_run& run_;
     const stop_condition& stop_;
@@ -75,9 +85,9 @@ private:
 
 }  // namespace
 
-void compute_tiles(const tile_job& job, tile_queue& queue, map_run& run, const stop_condition& stop,
-                   int n_threads) {
-    tile_pipeline pipeline(job, queue, run, stop);
+void compute_tiles(const tile_job& job, const tile_work& work, tile_queue& queue, map_run& run,
+                   const stop_condition& stop, int n_threads) {
+    tile_pipeline pipeline(job, work, queue, run, stop);
     tbb::task_arena arena(n_threads);
     try {
         arena.execute([&] { pipeline.compute(n_threads); });

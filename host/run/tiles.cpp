@@ -6,6 +6,7 @@
 #include "host/run/requests.hpp"
 #include "host/run/state_rule.hpp"
 #include "host/run/uncertain.hpp"
+#include "host/scene/grid.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -21,8 +22,9 @@ Number* numbers(std::vector<std::byte>& buffer) {
     return reinterpret_cast<Number*>(buffer.data());  // new gives memory aligned for every number
 }
 
-/// Points the kernel's result to the layer's buffer. Periods, immediate basins and uncertainty are
-/// no results: they follow from the label, from the start, and from further runs.
+/// Points the kernel's result to the layer's buffer. Periods, immediate basins, uncertainty and
+/// levels are no results: they follow from the label, from the start, from further runs and from
+/// the refinement.
 void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::byte>& buffer) {
     switch (layer.role) {
         case layer_role::label:
@@ -64,6 +66,7 @@ void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::b
         case layer_role::period:
         case layer_role::immediate:
         case layer_role::uncertain:
+        case layer_role::level:
             break;
     }
 }
@@ -167,23 +170,21 @@ layer_buffers compute_layers(const tile_job& job, const label_plan& plan, cell_r
     return buffers;
 }
 
-/// Cells of one parameter point within a box: their coordinates and places.
+/// Cells of one parameter point: their coordinates and places.
 struct cell_group {
     std::vector<std::uint64_t> first;   // coordinates of the first one
     std::vector<std::uint64_t> cells;   // index in the map
-    std::vector<std::uint64_t> places;  // index in the box
+    std::vector<std::uint64_t> places;  // index among all cells
 };
 
 std::vector<cell_group> groups_of(const scene& scene, const label_plan& plan,
-                                  const map_layout& layout, const tile_box& box) {
-    std::vector<std::uint64_t> shape;
-    for (const axis& along : layout.axes) shape.push_back(along.size());
+                                  const std::vector<std::uint64_t>& cells) {
     std::map<std::uint64_t, cell_group> groups;
-    for (std::uint64_t place = 0; place < box.n_cells(); ++place) {
-        const std::vector<std::uint64_t> coordinates = coordinates_in(box, place);
+    for (std::uint64_t place = 0; place < cells.size(); ++place) {
+        const std::vector<std::uint64_t> coordinates = coordinates_of(scene, cells[place]);
         cell_group& group = groups[point_index(scene, plan, coordinates)];
         if (group.cells.empty()) group.first = coordinates;
-        group.cells.push_back(offset_in(shape, coordinates));
+        group.cells.push_back(cells[place]);
         group.places.push_back(place);
     }
     std::vector<cell_group> result;
@@ -192,12 +193,13 @@ std::vector<cell_group> groups_of(const scene& scene, const label_plan& plan,
 }
 
 /// Point by point, each with a plan of its own.
-layer_buffers compute_by_point(const tile_job& job, const tile_box& box, lane_statistics& lanes) {
+layer_buffers compute_by_point(const tile_job& job, const std::vector<std::uint64_t>& all,
+                               lane_statistics& lanes) {
     layer_buffers buffers;
     for (const layer_plan& layer : job.layers) {
-        buffers.emplace_back(box.n_cells() * bytes_of(layer.description.type));
+        buffers.emplace_back(all.size() * bytes_of(layer.description.type));
     }
-    for (const cell_group& group : groups_of(job.what, job.plan, job.layout, box)) {
+    for (const cell_group& group : groups_of(job.what, job.plan, all)) {
         const label_plan plan = job.plan.of_cell(group.first);
         cell_request cells = request_of(job.what, plan, group.cells);
         const layer_buffers found = compute_layers(job, plan, cells, lanes);
@@ -211,14 +213,34 @@ layer_buffers compute_by_point(const tile_job& job, const tile_box& box, lane_st
     return buffers;
 }
 
+/// The cells of a box, in its C order, by index in the map.
+std::vector<std::uint64_t> cells_in(const map_layout& layout, const tile_box& box) {
+    std::vector<std::uint64_t> shape;
+    for (const axis& along : layout.axes) shape.push_back(along.size());
+    std::vector<std::uint64_t> cells(box.n_cells());
+    for (std::uint64_t place = 0; place < cells.size(); ++place) {
+        cells[place] = offset_in(shape, coordinates_in(box, place));
+    }
+    return cells;
+}
+
 }  // namespace
+
+std::vector<std::vector<std::byte>> compute_cells(const tile_job& job,
+                                                  const std::vector<std::uint64_t>& cells,
+                                                  lane_statistics& lanes) {
+    if (job.plan.of_cell) return compute_by_point(job, cells, lanes);
+    cell_request request = request_of(job.what, job.plan, cells);
+    return compute_layers(job, job.plan, request, lanes);
+}
 
 tile_result compute_tile(const tile_job& job, const tile_box& box) {
     const auto begin = std::chrono::steady_clock::now();
     tile_result result;
     result.data.box = box;
+    result.n_computed = box.n_cells();
     if (job.plan.of_cell) {
-        result.data.layers = compute_by_point(job, box, result.lanes);
+        result.data.layers = compute_by_point(job, cells_in(job.layout, box), result.lanes);
     } else {
         cell_request cells = request_of(job.what, job.plan, job.layout, box);
         result.data.layers = compute_layers(job, job.plan, cells, result.lanes);

@@ -24,9 +24,15 @@ struct tile_result {
     tile_data data;
     lane_statistics lanes;
     double seconds = 0.0;
+    std::uint64_t n_computed = 0;  // cells; fewer than the tile has where the map is refined
 };
 
-/// Thread safe.
+/// All layers of some cells, by index in the map, in the given order. Thread safe.
+std::vector<std::vector<std::byte>> compute_cells(const tile_job& job,
+                                                  const std::vector<std::uint64_t>& cells,
+                                                  lane_statistics& lanes);
+
+/// Every cell of a tile. Thread safe.
 tile_result compute_tile(const tile_job& job, const tile_box& box);
 
 }  // namespace hopscotch

@@ -57,6 +57,7 @@ std::string canonical(const scene& scene) {
     text +=
         fmt::format("accuracy {} {:a} {}\n", scene.accuracy.precision,
                     integrates(scene) ? scene.accuracy.tolerance : 0.0, scene.accuracy.max_events);
+    if (scene.refine > 0) text += fmt::format("refine {}\n", scene.refine);
     if (is_sweep(scene)) text += sweep_text(scene.sweep);
     return text;
 }

@@ -97,6 +97,14 @@ std::vector<layer_plan> available_layers(const scene& scene) {
     layers.push_back(plan(layer_role::outcome, "outcome", number_type::uint8, "1",
                           "why the orbit's computation ended", 255.0));
     layers.back().description.flags = flags_of(outcome_names);
+    if (scene.refine > 0) {
+        layers.push_back(
+            plan(layer_role::level, "level", number_type::uint8, "1",
+                 "round of refinement in which the cell was computed, 0 = coarse grid "
+                 "(254 = not computed itself: it has the label and outcome of the cell "
+                 "whose block it lies in)",
+                 255.0));
+    }
     const int n_columns = static_cast<int>(scene.end_section().columns.size());
     if (scene.question.kind == "orbit_diagram") {
         for (int index = 0; index < n_columns; ++index) layers.push_back(state_plan(scene, index));

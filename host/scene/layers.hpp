@@ -27,7 +27,8 @@ enum class layer_role : std::uint8_t {
     exponent_error,
     exponent_returns,
     motion,
-    uncertain
+    uncertain,
+    level
 };
 
 struct layer_plan {

@@ -24,6 +24,7 @@ struct question_kind {
     std::span<const question_number> numbers;
     std::span<const std::string_view> standard_layers;  // "state" stands for all state columns
     std::uint64_t standard_audit_cells = 1000;
+    bool has_classes = true;  // few different answers, with boundaries between them
 };
 
 std::span<const question_kind> question_kinds();

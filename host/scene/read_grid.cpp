@@ -18,6 +18,7 @@ namespace {
 constexpr std::int64_t most_cells_along = std::int64_t{1} << 28;
 constexpr double most_cells = 1e15;
 constexpr std::size_t most_axes = 8;
+constexpr std::int64_t most_refine = 8;  // blocks of 256 cells along a side
 
 void read_section(scene& scene, const table_reader& table) {
     const auto name = table.text("section");
@@ -144,7 +145,7 @@ scene_axis read_axis(const scene& scene, const table_reader& table, bool edges) 
 
 void read_grid(scene& scene, const table_reader& root) {
     const table_reader table = root.table("grid");
-    table.expect_keys({"section", "axis", "edges"});
+    table.expect_keys({"section", "axis", "edges", "refine"});
     read_section(scene, table);
     const bool edges = table.flag("edges").value_or(false);
     const std::vector<table_reader> axes = table.tables("axis");
@@ -156,6 +157,7 @@ void read_grid(scene& scene, const table_reader& root) {
         cells *= static_cast<double>(scene.axes.back().cells);
         if (cells > most_cells) axis.refuse("cells", "more than 1e15 cells in all", "fewer cells");
     }
+    scene.refine = static_cast<int>(table.whole("refine", 0, most_refine).value_or(0));
 }
 
 void read_start(scene& scene, const table_reader& root) {

@@ -36,6 +36,12 @@ std::uint64_t cells_of(const std::vector<std::uint64_t>& tile) {
     return cells;
 }
 
+/// Tiles of a refined map hold whole blocks of the coarse grid.
+std::uint64_t in_blocks(const scene& scene, std::uint64_t extent) {
+    const std::uint64_t block = std::uint64_t{1} << scene.refine;
+    return (extent + block - 1) / block * block;
+}
+
 /// 256 x 256 or as many cells in other dimensions; smaller on small maps, larger on very large
 /// ones.
 std::vector<std::uint64_t> standard_tile(const scene& scene) {
@@ -54,7 +60,7 @@ std::vector<std::uint64_t> standard_tile(const scene& scene) {
         *std::min_element(tile.begin(), tile.end()) *= 2;
     }
     for (std::size_t axis = 0; axis < tile.size(); ++axis) {
-        tile[axis] = std::min(tile[axis], scene.axes[axis].cells);
+        tile[axis] = std::min(in_blocks(scene, tile[axis]), scene.axes[axis].cells);
     }
     return tile;
 }
@@ -70,6 +76,12 @@ void read_tile(scene& scene, const table_reader& table) {
     for (std::size_t axis = 0; axis < tile->size(); ++axis) {
         const auto extent = static_cast<std::uint64_t>((*tile)[axis]);
         scene.output.tile[axis] = std::min(scene.axes[axis].cells, extent);
+        if (extent < scene.axes[axis].cells && extent != in_blocks(scene, extent)) {
+            table.refuse("tile",
+                         fmt::format("grid.refine = {} needs multiples of {}", scene.refine,
+                                     std::uint64_t{1} << scene.refine),
+                         fmt::format("{}", in_blocks(scene, extent)));
+        }
     }
     if (cells_of(scene.output.tile) > static_cast<std::uint64_t>(most_tile_cells)) {
         table.refuse("tile", "more than 2^26 cells in a tile", "[256, 256]");
@@ -120,6 +132,7 @@ void read_layers(scene& scene, const table_reader& table) {
     }
     if (scene.question.has_labels) add_layer(layers, "label");
     if (scene.question.kind == "lyapunov") add_layer(layers, "motion");
+    if (scene.refine > 0) add_layer(layers, "level");
     add_layer(layers, "outcome");
 }
 

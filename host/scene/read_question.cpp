@@ -48,6 +48,13 @@ void read_question(scene& scene, const table_reader& root) {
     scene.question.returns = static_cast<std::uint32_t>(
         table.whole("returns", 1, most_returns).value_or(kind.standard_returns));
     for (const question_number& number : kind.numbers) read_number(scene, table, number);
+    if (scene.refine > 0 && !kind.has_classes) {
+        root.table("grid").refuse("refine",
+                                  fmt::format("the question {} has no classes whose boundaries "
+                                              "could be refined",
+                                              kind.name),
+                                  "refine = 0");
+    }
 }
 
 void read_accuracy(scene& scene, const table_reader& root) {

@@ -328,9 +328,17 @@ std::string map_run::kept(std::string_view name) const {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void map_run::rescan() {
+void map_run::rescan(const std::vector<std::uint64_t>& tiles) {
     const std::lock_guard guard(self_->mutex);
-    self_->scan();
+    for (const std::uint64_t tile : tiles) {
+        self_->finished.at(tile).reset();
+        if (std::filesystem::exists(tile_path(self_->directory, tile))) self_->load(tile);
+    }
+}
+
+double map_run::seconds(std::uint64_t tile) const {
+    const std::lock_guard guard(self_->mutex);
+    return self_->finished.at(tile) ? self_->finished[tile]->seconds : 0.0;
 }
 
 void map_run::finish(const map_summary& summary) {

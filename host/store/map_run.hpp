@@ -101,8 +101,11 @@ public:
     /// What this run or the one it resumes has kept; empty where it has not.
     std::string kept(std::string_view name) const;
 
-    /// Looks for tiles that helpers have put since; for the owner, before `finish`.
-    void rescan();
+    /// Reads these tiles again, which helpers may have put or replaced since; for the owner.
+    void rescan(const std::vector<std::uint64_t>& tiles);
+
+    /// Seconds spent on a tile that is known here, else 0.
+    double seconds(std::uint64_t tile) const;
 
     /// Packs all tiles into the map file (raw chunks, one tile in memory), renames it into place,
     /// removes the run directory. Where tiles are kept, the map file's layers are virtual datasets

@@ -229,8 +229,23 @@ TEST_F(store_run, helpers_put_tiles_that_the_owner_packs) {
     for (std::uint64_t i = 0; i < layout.n_tiles(); ++i) {
         put_tile(i % 2 == 0 ? owner : helper, layout, i);
     }
-    owner.rescan();
+    owner.rescan(owner.missing_tiles());
     EXPECT_TRUE(owner.missing_tiles().empty());
+    owner.finish(sample_summary());
+    EXPECT_EQ(read_bytes(map), undisturbed());
+}
+
+TEST_F(store_run, tiles_that_a_helper_replaces_are_packed_as_they_are_then) {
+    map_layout before = layout;
+    before.axes[0].values[0] += 0.125;  // its cells tell other numbers
+    map_run owner(layout, sample_options(map));
+    for (std::uint64_t i = 0; i < layout.n_tiles(); ++i)
+        put_tile(owner, i == 0 ? before : layout, i);
+    run_options asked = sample_options(map);
+    asked.role = run_role::helper;
+    map_run helper(layout, asked);
+    put_tile(helper, layout, 0);
+    owner.rescan({0});
     owner.finish(sample_summary());
     EXPECT_EQ(read_bytes(map), undisturbed());
 }
