@@ -73,6 +73,20 @@ PYTHON
     mv whole sweep.h5.maps
 fi
 
+if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
+    PYTHONPATH=$source_folder/analysis/python /usr/bin/python3 - <<'PYTHON' || fail "an index is drawn" "see above"
+import matplotlib
+matplotlib.use("Agg")
+import hopscotch
+index = hopscotch.open("sweep.h5")
+one = index.hop.plot("label", damping_ratio=2)
+assert (one.get_xlabel(), one.get_ylabel()) == ("liftoff speed", "mass ratio"), one.get_xlabel()
+assert "damping_ratio = 0.1" in one.get_title(), one.get_title()
+table = index.hop.plot("basin_entropy")
+assert table.get_xlabel() == "damping ratio", table.get_xlabel()
+PYTHON
+fi
+
 # interrupted and resumed; a lost map is told and computed again
 rm sweep.h5.maps/map_000001.h5
 claim_exit "a lost map is found" 4 hopscotch verify sweep.h5

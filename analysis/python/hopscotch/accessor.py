@@ -65,7 +65,8 @@ class HopAccessor:
         """Draws a layer with matplotlib and returns the axes.
 
         ``layer`` is ``label`` by default, else the first one; further axes than two are fixed at
-        their first cell unless named: ``plot("label", restitution=3)``.
+        their first cell unless named: ``plot("label", restitution=3)``. Of the index of a sweep,
+        layers are drawn for one map (``plot("label", stride_period=4)``), its table over the sweep.
         """
         if layer is None:
             layer = "label" if "label" in self._dataset else next(iter(self._dataset.data_vars))

@@ -10,7 +10,8 @@ def draw(dataset, layer, names, colours, ax, cells):
     import matplotlib.pyplot as plt
 
     is_diagram = layer.dims[1:] == ("orbit", "sample") and not names and not cells
-    layer, remarks = (layer, []) if is_diagram else _slice(layer, cells)
+    sweep_axes = dataset.attrs.get("sweep_axes", "").split()
+    layer, remarks = (layer, []) if is_diagram else _slice(layer, cells, sweep_axes)
     ax = ax if ax is not None else plt.subplots(layout="constrained")[1]
     if is_diagram:
         _diagram(ax, layer)
@@ -24,11 +25,14 @@ def draw(dataset, layer, names, colours, ax, cells):
     return ax
 
 
-def _slice(layer, cells):
+def _slice(layer, cells, sweep_axes):
+    """One or two axes of a layer: of a sweep's index those of one map, of its table the sweep's."""
     unknown = set(cells) - set(layer.dims)
     if unknown:
         raise KeyError(f"{sorted(unknown)} is no axis of this map: {list(layer.dims)}")
-    fixed = {name: cells.get(name, 0) for name in layer.dims[2:]}
+    of_maps = [name for name in layer.dims if name not in (*sweep_axes, "attractor", "ending")]
+    free = (of_maps or layer.dims)[:2]
+    fixed = {name: cells.get(name, 0) for name in layer.dims if name not in free}
     fixed.update(cells)
     remarks = [f"{name} = {float(layer[name][cell]):.4g}" for name, cell in fixed.items()]
     return layer.isel(fixed), remarks
