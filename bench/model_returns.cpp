@@ -111,7 +111,7 @@ void model_returns::keep_returning(std::size_t n) {
     set_starts(rows);
 }
 
-bool model_returns::truth(std::size_t i, double* columns) const {
+orbit_answer model_returns::precise(std::size_t i, digits arithmetic) const {
     std::vector<std::string> start;
     std::vector<std::string> numbers;
     for (int c = 0; c < n_columns_; ++c) start.push_back(fmt::format("{:.17g}", this->start(i)[c]));
@@ -122,7 +122,13 @@ bool model_returns::truth(std::size_t i, double* columns) const {
     row.variant = variant();
     row.columns = start;
     row.parameters = numbers;
-    const orbit_answer answer = model_->orbits().run_mp50(row);
+    const orbit_functions& orbits = model_->orbits();
+    return arithmetic == digits::fifty ? orbits.run_mp50(row) : orbits.run_dd(row);
+}
+
+bool model_returns::truth(std::size_t i, double* columns, double* time) const {
+    const orbit_answer answer = precise(i, digits::fifty);
+    if (time != nullptr) *time = std::strtod(answer.time.c_str(), nullptr);
     if (answer.end != outcome::ok) return false;
     for (std::size_t c = 0; c < answer.columns.size(); ++c)
         columns[c] = std::strtod(answer.columns[c].c_str(), nullptr);

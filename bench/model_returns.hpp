@@ -2,6 +2,7 @@
 // what they should be (50 digits). Through the kernels' public entry.
 #pragma once
 
+#include "analysis/orbit/orbit_functions.hpp"
 #include "kernels/contract/entry.hpp"
 
 #include <cstdint>
@@ -45,8 +46,14 @@ public:
     /// Leaves the first `n` starts that come back to the section.
     void keep_returning(std::size_t n);
 
+    double time(std::size_t i) const { return times_[i]; }
+
+    enum class digits { thirty_two, fifty };
+    /// The same return as text, in double-double or 50 digits.
+    orbit_answer precise(std::size_t i, digits arithmetic) const;
+
     /// The same return in 50 digits: false where it does not end on the section.
-    bool truth(std::size_t i, double* columns) const;
+    bool truth(std::size_t i, double* columns, double* time = nullptr) const;
 
     /// What a column that wraps repeats after; 0 for others.
     double turn(int column) const;

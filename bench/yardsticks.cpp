@@ -6,6 +6,7 @@
 // models with exact flows, whose kernels are then still more right; 1e-9 for integrated ones, whose
 // kernels run at their own loosest sufficient tolerance). A result is wrong where the orbit ends
 // instead of returning, or the other way round.
+#include "bench/known_returns.hpp"
 #include "bench/report.hpp"
 #include "bench/yardstick_case.hpp"
 #include "host/run/backends.hpp"
@@ -20,61 +21,20 @@
 
 namespace hopscotch::bench {
 
-std::vector<yardstick_case>& all_cases() {
-    static std::vector<yardstick_case> cases;
-    return cases;
-}
-
 namespace {
 
-constexpr std::size_t n_starts = 240;
-constexpr std::size_t n_copies = 8;  // of the starts in one kernel call, so that lanes stay full
 constexpr int n_rounds = 5;
-
-/// What one solver at one tolerance made of all starts.
-struct accuracy {
-    std::vector<double> errors;  // where the outcome is right
-    double n_wrong = 0.0;
-
-    double middle() const { return errors.empty() ? HUGE_VAL : median(errors); }
-    double wrong_share() const { return n_wrong / static_cast<double>(n_starts); }
-};
-
-struct true_state {
-    bool returns = false;
-    double columns[most_columns] = {};
-};
 
 /// One case with its kernels, starts and truth.
 class comparison {
 public:
     explicit comparison(const yardstick_case& what)
-        : what_(what),
-          work_(what.model, what.section, what.parameters, what.options, what.wants_time) {
-        work_.set_starts(uniform_rows(8 * n_starts, what.starts));
-        if (what.settled_after > 0) work_.settle(what.settled_after);
-        work_.keep_returning(n_starts);
-        n_ = work_.size();
-        truth_.resize(n_);
-        for (std::size_t i = 0; i < n_; ++i) truth_[i].returns = work_.truth(i, truth_[i].columns);
-        for (int c = 0; c < work_.n_columns(); ++c) {
-            std::vector<double> sizes;
-            for (const true_state& state : truth_) {
-                if (state.returns) sizes.push_back(std::abs(state.columns[c]));
-            }
-            scale_.push_back(median(sizes));
-        }
-        std::vector<double> tiled;
-        for (std::size_t copy = 0; copy < n_copies; ++copy) {
-            tiled.insert(tiled.end(), work_.start(0), work_.start(0) + n_ * scale_.size());
-        }
-        work_.set_starts(tiled);
-    }
+        : what_(what), known_(what, what.wants_time), work_(known_.work()) {}
 
     void run() {
         const double tolerance =
             what_.is_integrated && model_returns::takes_tolerance() ? kernel_tolerance() : 0.0;
-        const accuracy ours = accuracy_of_kernel(tolerance);
+        const accuracy ours = known_.of_kernel(tolerance);
         report("hopscotch", tolerance, ours, time_of_kernel(work_.backends().front(), tolerance));
         for (const yardstick_case::solver& solver : what_.solvers) {
             const std::optional<double> chosen = climb(solver);
@@ -85,64 +45,26 @@ public:
     }
 
 private:
-    /// Largest error of a state, each column over the larger of its true size and its typical one.
-    void book(accuracy& result, std::size_t i, bool returned, const double* columns) const {
-        if (returned != truth_[i].returns) {
-            result.n_wrong += 1.0;
-            return;
-        }
-        if (!returned) return;
-        double worst = 0.0;
-        for (std::size_t c = 0; c < scale_.size(); ++c) {
-            double difference = std::abs(columns[c] - truth_[i].columns[c]);
-            const double turn = work_.turn(static_cast<int>(c));
-            if (turn > 0.0) difference = std::min(difference, std::abs(turn - difference));
-            worst =
-                std::fmax(worst, difference / std::fmax(std::abs(truth_[i].columns[c]), scale_[c]));
-        }
-        result.errors.push_back(worst);
-    }
-
-    accuracy accuracy_of_kernel(double tolerance) {
-        work_.compute(work_.backends().front(), tolerance);
-        accuracy result;
-        for (std::size_t i = 0; i < n_; ++i) {
-            double columns[most_columns];
-            for (int c = 0; c < work_.n_columns(); ++c) columns[c] = work_.state(i, c);
-            book(result, i, work_.is_ok(i), columns);
-        }
-        return result;
-    }
-
     /// The loosest tolerance at which the kernel meets the target.
     double kernel_tolerance() {
         for (double tolerance = 1e-4; tolerance > 1e-14; tolerance *= std::sqrt(0.1)) {
-            if (accuracy_of_kernel(tolerance).middle() <= what_.target_error) return tolerance;
+            if (known_.of_kernel(tolerance).middle() <= what_.target_error) return tolerance;
         }
         return 0.0;
     }
 
     double time_of_kernel(backend which, double tolerance) {
         const auto seconds = alternate({[&] { work_.compute(which, tolerance); }}, n_rounds);
-        return per_return(median(seconds[0]), n_copies);
+        return known_.per_return(median(seconds[0]), known_returns::n_copies);
     }
-    double per_return(double seconds, std::size_t copies) const {
-        return 1e6 * seconds / static_cast<double>(copies * n_);
-    }
-
     /// Runs the ladder of tolerances up to the loosest that meets the target.
     std::optional<double> climb(const yardstick_case::solver& solver) {
         for (int rung = 8; rung <= 26; ++rung) {
             const double tolerance = std::pow(10.0, -0.5 * rung);
             const yardstick one = solver.make(work_.parameters().data(), tolerance);
             accuracy result;
-            const double seconds = seconds_of([&] {
-                for (std::size_t i = 0; i < n_; ++i) {
-                    const yardstick_return got = one(work_.start(i));
-                    book(result, i, got.returned, got.columns.data());
-                }
-            });
-            report(solver.name, tolerance, result, per_return(seconds, 1));
+            const double seconds = seconds_of([&] { result = known_.of_solver(one); });
+            report(solver.name, tolerance, result, known_.per_return(seconds, 1));
             if (result.middle() <= what_.target_error) return tolerance;
         }
         return std::nullopt;
@@ -153,21 +75,17 @@ private:
                  const accuracy& our_accuracy) {
         const std::vector<backend> kernels = work_.backends();
         const yardstick one = solver.make(work_.parameters().data(), theirs);
-        accuracy their_accuracy;
-        for (std::size_t i = 0; i < n_; ++i) {
-            const yardstick_return got = one(work_.start(i));
-            book(their_accuracy, i, got.returned, got.columns.data());
-        }
+        const accuracy their_accuracy = known_.of_solver(one);
         std::vector<std::function<void()>> pieces;
         for (const backend which : kernels)
             pieces.emplace_back([this, which, ours] { work_.compute(which, ours); });
         pieces.emplace_back([&] {
-            for (std::size_t i = 0; i < n_; ++i) sum_ += one(work_.start(i)).columns[0];
+            for (std::size_t i = 0; i < known_.size(); ++i) sum_ += one(work_.start(i)).columns[0];
         });
         const auto seconds = alternate(pieces, n_rounds);
-        const double slow = per_return(median(seconds.back()), 1);
+        const double slow = known_.per_return(median(seconds.back()), 1);
         for (std::size_t k = 0; k < kernels.size(); ++k) {
-            const double fast = per_return(median(seconds[k]), n_copies);
+            const double fast = known_.per_return(median(seconds[k]), known_returns::n_copies);
             json_line("yardsticks_ratio")
                 .add("case", what_.name)
                 .add("solver", solver.name)
@@ -197,7 +115,7 @@ private:
             .add("case", what_.name)
             .add("solver", solver)
             .add("tolerance", tolerance)
-            .add("starts", static_cast<double>(n_))
+            .add("starts", static_cast<double>(known_.size()))
             .add("us_per_return", us_per_return)
             .add("error_median", result.middle())
             .add("error_99", quantile(result.errors, 0.99))
@@ -207,11 +125,9 @@ private:
     }
 
     const yardstick_case& what_;
-    model_returns work_;
-    std::size_t n_ = 0;
-    std::vector<true_state> truth_;
-    std::vector<double> scale_;  // typical size of each column
-    double sum_ = 0.0;           // keeps the solvers' work alive
+    known_returns known_;
+    model_returns& work_;
+    double sum_ = 0.0;  // keeps the solvers' work alive
 };
 
 }  // namespace
