@@ -31,11 +31,15 @@ public:
     explicit comparison(const yardstick_case& what)
         : what_(what), known_(what, what.wants_time), work_(known_.work()) {}
 
-    void run() {
+    /// \param kernels_only  without the other solvers
+    void run(bool kernels_only) {
         const double tolerance =
             what_.is_integrated && model_returns::takes_tolerance() ? kernel_tolerance() : 0.0;
         const accuracy ours = known_.of_kernel(tolerance);
-        report("hopscotch", tolerance, ours, time_of_kernel(work_.backends().front(), tolerance));
+        const double us = time_of_kernel(work_.backends().front(), tolerance);
+        report("hopscotch", tolerance, ours, us);
+        report_lanes(tolerance, us);
+        if (kernels_only) return;
         for (const yardstick_case::solver& solver : what_.solvers) {
             const std::optional<double> chosen = climb(solver);
             if (chosen) compare(solver, *chosen, tolerance, ours);
@@ -124,6 +128,25 @@ private:
             .print();
     }
 
+    /// What bounds a kernel: steps (events or integrator steps) per return and how full its lanes
+    /// were.
+    void report_lanes(double tolerance, double us_per_return) {
+        const lane_statistics lanes = work_.compute(work_.backends().front(), tolerance);
+        const double steps = static_cast<double>(lanes.useful) / static_cast<double>(work_.size());
+        json_line("yardsticks_lanes")
+            .add("case", what_.name)
+            .add("kernel", name_of(work_.backends().front()))
+            .add("tolerance", tolerance)
+            .add("steps_per_return", steps)
+            .add("lane_efficiency", lanes.efficiency())
+            .add("us_per_return", us_per_return)
+            .add("ns_per_step", 1e3 * us_per_return / steps)
+            .print();
+        fmt::print("{:<26} {:.4f} us per return, {:.2f} steps of {:.0f} ns, lanes {:.0f} % full\n",
+                   what_.name, us_per_return, steps, 1e3 * us_per_return / steps,
+                   100.0 * lanes.efficiency());
+    }
+
     const yardstick_case& what_;
     known_returns known_;
     model_returns& work_;
@@ -133,15 +156,18 @@ private:
 }  // namespace
 }  // namespace hopscotch::bench
 
-/// Names of cases, or beginnings of them, limit the run to these.
+/// Names of cases, or beginnings of them, limit the run to these; `--kernels` leaves out the other
+/// solvers.
 int main(int argc, char** argv) {
     using namespace hopscotch::bench;
     stay_on_this_core();
     std::vector<yardstick_case>& cases = all_cases();
     std::ranges::sort(cases, {}, &yardstick_case::name);
+    std::vector<std::string_view> words(argv + 1, argv + argc);
+    const bool kernels_only = std::erase(words, "--kernels") > 0;
     for (const yardstick_case& one : cases) {
-        const auto is_named = [&](const char* word) { return one.name.starts_with(word); };
-        if (argc > 1 && std::none_of(argv + 1, argv + argc, is_named)) continue;
-        comparison(one).run();
+        const auto is_named = [&](std::string_view word) { return one.name.starts_with(word); };
+        if (!words.empty() && std::ranges::none_of(words, is_named)) continue;
+        comparison(one).run(kernels_only);
     }
 }

@@ -118,18 +118,20 @@ HOPSCOTCH_DEVICE inline guard_search<Real> first_zero(const series<Real>& guard,
     using plain = primal_of<Real>;
     const plain zero(0.0);
     const series<plain> g = primal_series(guard);
-    // bounds over the whole step: curvature, and how far the value can fall at all
+    // bounds over the whole step: of the curvature, and of what the value's linear part leaves out
     plain curvature(0.0);
-    plain fall(0.0);
-    for (int n = order<Real>; n >= 1; --n) {
+    plain bend(0.0);
+    for (int n = order<Real>; n >= 2; --n) {
         const double factor = static_cast<double>(n) * (n - 1);
-        if (n >= 2) curvature = fma(curvature, horizon, abs(g.c[n]) * plain(factor));
-        fall = fma(fall, horizon, abs(g.c[n]));
+        const plain size = abs(g.c[n]);
+        curvature = fma(curvature, horizon, size * plain(factor));
+        bend = fma(bend, horizon, size);
     }
-    fall = fall * horizon;
+    const plain steepness = fma(bend, horizon, abs(g.c[1]));  // |value - start| over the time
     const plain noise_now = plain(lane_traits<Real>::rounding * 4.0) * abs(g.c[0]);
-    const plain noise_rate = plain(lane_traits<Real>::rounding * 4.0) * (fall / horizon);
-    mask_of<Real> active = wanted & !(g.c[0] > fall);
+    const plain noise_rate = plain(lane_traits<Real>::rounding * 4.0) * steepness;
+    const plain lower_end = smaller(g.c[0], fma(g.c[1], horizon, g.c[0]));
+    mask_of<Real> active = wanted & !(lower_end > bend * horizon * horizon);
     plain t(0.0);
     mask_of<Real> found = active & (g.c[0] <= zero);
     active = active & (g.c[0] > zero);
@@ -142,8 +144,9 @@ HOPSCOTCH_DEVICE inline guard_search<Real> first_zero(const series<Real>& guard,
             const plain reach = larger(at.value, zero);
             const plain root = sqrt(fma(at.slope, at.slope, plain(2.0) * curvature * reach));
             // the smaller root of value + slope d - curvature d^2 / 2, without cancellation
-            plain step = select(at.slope > zero, (at.slope + root) / curvature,
-                                plain(2.0) * reach / (root - at.slope));
+            const mask_of<Real> rises = at.slope > zero;
+            plain step = select(rises, at.slope + root, reach + reach) /
+                         select(rises, curvature, root - at.slope);
             plain noise = fma(noise_rate, t, noise_now);  // of the value at t
             if (i >= short_search) {
                 step = longer_step(g, t, horizon, fma(noise_rate, horizon, noise_now), step);
@@ -152,12 +155,17 @@ HOPSCOTCH_DEVICE inline guard_search<Real> first_zero(const series<Real>& guard,
             const plain next = t + step;
             const mask_of<Real> touches =
                 (at.value <= noise) & (at.slope * at.slope <= plain(2.0) * curvature * noise);
-            const mask_of<Real> arrived = active & ((at.value <= zero) | touches |
-                                                    (step <= settled * smaller(next, horizon)));
+            const plain scale = smaller(next, horizon);
+            // the next step would be below rounding: curvature step^2 / |slope| bounds it
+            const mask_of<Real> close =
+                (next < horizon) &
+                (plain(8.0) * curvature * (step * step) <= settled * scale * -at.slope);
+            const mask_of<Real> arrived =
+                active & ((at.value <= zero) | touches | (step <= settled * scale));
             const mask_of<Real> passed = active & !arrived & !(next < horizon);
-            found = found | arrived;
+            found = found | arrived | (active & close);
             t = select(active & !arrived & !passed, next, t);
-            active = active & !arrived & !passed;
+            active = active & !arrived & !passed & !close;
             // at the step's end itself nothing is left to bound
             const mask_of<Real> at_end = passed & (value_slope(g, horizon).value <= zero);
             t = select(at_end, horizon, t);

@@ -112,12 +112,12 @@ class step_length {
 public:
     /// Takes account of a variable; its error is measured against floor + |value at the start|.
     HOPSCOTCH_DEVICE void watch(const series<Real>& a, double floor = 0.25) {
-        const plain scale = plain(floor) + abs(primal(a.c[0]));
-        last_ = larger(last_, abs(primal(a.c[order<Real>])) / scale);
-        before_last_ = larger(before_last_, abs(primal(a.c[order<Real> - 1])) / scale);
-        doubtful_ =
-            doubtful_ +
-            (abs(primal(a.c[order<Real>])) + abs(primal(a.c[order<Real> - 1]))) * plain(0.0);
+        const plain per_scale = plain(1.0) / (plain(floor) + abs(primal(a.c[0])));
+        const plain last = abs(primal(a.c[order<Real>]));
+        const plain before_last = abs(primal(a.c[order<Real> - 1]));
+        last_ = larger(last_, last * per_scale);
+        before_last_ = larger(before_last_, before_last * per_scale);
+        doubtful_ = doubtful_ + (last + before_last) * plain(0.0);
     }
 
     /// The longest step whose last two terms stay below the tolerance, at most `longest`; NaN where
@@ -126,16 +126,16 @@ public:
                                             const primal_of<Real>& longest) const {
         // proofs do not hold the remainder
         if constexpr (requires { note_truncation(tolerance); }) note_truncation(tolerance);
-        const plain from_last = root(tolerance / last_, order<Real>);
-        const plain from_before = root(tolerance / before_last_, order<Real> - 1);
-        const plain shorter = smaller(from_before, from_last);
+        const plain from_last = log_of_root(tolerance / last_, order<Real>);
+        const plain from_before = log_of_root(tolerance / before_last_, order<Real> - 1);
+        const plain shorter = exp(smaller(from_before, from_last));
         return select(shorter < longest, shorter, longest) + doubtful_;
     }
 
 private:
     using plain = primal_of<Real>;
-    HOPSCOTCH_DEVICE static plain root(const plain& ratio, int n) {
-        return exp(log(ratio) / plain(static_cast<double>(n)));
+    HOPSCOTCH_DEVICE static plain log_of_root(const plain& ratio, int n) {
+        return over(log(ratio), n);
     }
 
     plain last_ = plain(0.0);

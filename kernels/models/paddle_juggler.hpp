@@ -124,8 +124,10 @@ struct paddle_juggler {
 
         const paddle::ball_gap<Real> flow =
             paddle::gap_after(lane.amplitude, lane.phase, lane.speed);
-        const plain slope = gap.at(root).rate;
-        const Real duration = implicit_root(root, flow.at(Real(root)).value, slope);
+        Real duration(root);
+        if constexpr (!without_derivatives<Real>) {
+            duration = implicit_root(root, flow.at(duration).value, gap.at(root).rate);
+        }
         const Real approach = smaller(flow.at(duration).rate, zero);
         const Real speed = -(lane.restitution * approach);
         const turned<Real> landing = within_turn(lane.phase + duration);

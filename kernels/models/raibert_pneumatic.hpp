@@ -410,11 +410,18 @@ private:
                               lane.friction, lane.gravity);
         const plain horizon = pneumatic::step_of(a, lane.tolerance);
         const Real still = select(extends & (lane.velocity == zero), one, zero);
-        taylor::series<Real> turning = taylor::without_zeros(a.velocity, still);
+        // each arc ends at its own guard: the bottom, or lift-off; an extension may also turn first
+        taylor::series<Real> ending;
         for (int n = 0; n <= taylor::order<Real>; ++n)
-            turning.c[n] = negate_where(compresses, turning.c[n]);
-        const auto turn = taylor::first_zero(turning, horizon, flows);
-        const auto off = taylor::first_zero(a.depth, horizon, flows & extends);
+            ending.c[n] = select(extends, a.depth.c[n], -a.velocity.c[n]);
+        const auto end = taylor::first_zero(ending, horizon, flows);
+        const auto falls_back =
+            taylor::first_zero(taylor::without_zeros(a.velocity, still), horizon, flows & extends);
+        const taylor::guard_search<Real> off{end.found & extends, end.unresolved & extends,
+                                             end.time};
+        const taylor::guard_search<Real> turn{falls_back.found | (end.found & compresses),
+                                              falls_back.unresolved | (end.unresolved & compresses),
+                                              select(compresses, end.time, falls_back.time)};
         const mask_of<Real> lifts = flows & off.found & !(turn.found & (turn.time < off.time));
         const mask_of<Real> turns = flows & turn.found & !lifts;
         const Real s = select(lifts, off.time, select(turns, turn.time, Real(horizon)));

@@ -146,67 +146,73 @@ HOPSCOTCH_DEVICE inline mask_of<Real> has_settled(hopper_lane<Real>& lane,
     return rests;
 }
 
-/// From the present state to the next event.
-template <class Terms, class Real, class Watch>
-HOPSCOTCH_DEVICE inline progress<Real> advance(hopper_lane<Real>& lane, const mask_of<Real>& active,
-                                               Watch& watch) {
-    using plain = primal_of<Real>;
+/// The present state moved to its next event: take-off, landing, or an edge of the clock.
+template <class Real>
+struct next_event {
+    Real duration;
+    Real height;
+    Real velocity;
+    Real leg;
+    mask_of<Real> lands;
+    mask_of<Real> leaves;
+    mask_of<Real> held;  // on the ground, at the end of chatter
+};
+
+/// Takes the lanes that move to their event and books it.
+template <class Terms, bool InAir, class Real, class Watch>
+HOPSCOTCH_DEVICE inline progress<Real> take_event(hopper_lane<Real>& lane,
+                                                  const next_event<Real>& next,
+                                                  const mask_of<Real>& moves, Watch& watch) {
     const Real zero(0.0);
     const Real one(1.0);
     const hopper_lane<Real> was = lane;
-    const Real force = active_thrust(lane);
-    const plain tie = primal(lane.on_time + lane.off_time) * plain(tie_share);
-    const plain horizon = primal(lane.until_edge) + tie;
-    const mask_of<Real> airborne = active & (lane.airborne > zero);
-    const mask_of<Real> grounded = active & !airborne;
-
-    const air_event<Real> air = next_in_air<Terms>(lane, horizon, airborne);
-    const ground_event<Real> ground = next_on_ground<Terms>(lane, horizon, grounded);
-    const Real duration = select(airborne, air.time, ground.time);
-    const Real until_edge = lane.until_edge - duration;
-    const mask_of<Real> chatters =
-        ground.leaves & is_chatter(lane, ground.height, ground.velocity, until_edge);
-    const mask_of<Real> leaves = ground.leaves & !chatters;
-    const mask_of<Real> edge = active & !air.lands & !ground.leaves;
+    const mask_of<Real> edge = moves & !next.lands & !next.leaves & !next.held;
     const mask_of<Real> thrust_ends = edge & (lane.thrust_on > zero);
     const mask_of<Real> thrust_begins = edge & !thrust_ends;
 
-    const Real height = select(airborne, air.height, ground.height);
-    const Real velocity = select(airborne, air.velocity, select(chatters, zero, ground.velocity));
-    const Real w = lane.angular_frequency;
-    const Real lifted = select(grounded, force * (height - lane.height), zero);
-    lane.work = select(active, lane.work + lifted / (w * w), lane.work);
-    lane.height = select(active, height, lane.height);
-    lane.velocity = select(active, velocity, lane.velocity);
-    lane.until_edge = select(active, until_edge, lane.until_edge);
-    if constexpr (Terms::has_force_guard) {
-        lane.leg = select(airborne, air.leg, select(leaves, height, lane.leg));
-        lane.airborne = select(leaves, one, select(air.lands, zero, lane.airborne));
-    } else {
-        lane.flight_left = select(airborne, lane.flight_left - duration, lane.flight_left);
-        lane.airborne = select(air.lands, zero, lane.airborne);
-        launch(lane, leaves);
+    if constexpr (!InAir) {
+        const Real w = lane.angular_frequency;
+        const Real lifted = active_thrust(lane) * (next.height - lane.height);
+        lane.work = select(moves, lane.work + lifted / (w * w), lane.work);
     }
-    lane.hops = select(leaves, lane.hops + one, lane.hops);
-    lane.settled = select(leaves, zero, lane.settled);
-    lane.events = select(edge | leaves | air.lands, lane.events + one, lane.events);
+    lane.height = select(moves, next.height, lane.height);
+    lane.velocity = select(moves, next.velocity, lane.velocity);
+    lane.until_edge = select(moves, lane.until_edge - next.duration, lane.until_edge);
+    if constexpr (InAir) {
+        lane.airborne = select(next.lands, zero, lane.airborne);
+        if constexpr (Terms::has_force_guard) {
+            lane.leg = select(moves, next.leg, lane.leg);
+        } else {
+            lane.flight_left = select(moves, lane.flight_left - next.duration, lane.flight_left);
+        }
+    } else {
+        if constexpr (Terms::has_force_guard) {
+            lane.leg = select(next.leaves, next.height, lane.leg);
+            lane.airborne = select(next.leaves, one, lane.airborne);
+        } else {
+            launch(lane, next.leaves);
+        }
+        lane.hops = select(next.leaves, lane.hops + one, lane.hops);
+        lane.settled = select(next.leaves, zero, lane.settled);
+    }
+    lane.events = select(edge | next.leaves | next.lands, lane.events + one, lane.events);
 
     const mask_of<Real> returned = (thrust_begins & (lane.section == Real(strobe))) |
-                                   (air.lands & (lane.section == Real(landing))) |
-                                   (leaves & (lane.section == Real(takeoff)));
-    lane.time = select(active, elapsed_time(lane), lane.time);
+                                   (next.lands & (lane.section == Real(landing))) |
+                                   (next.leaves & (lane.section == Real(takeoff)));
+    lane.time = select(moves, elapsed_time(lane), lane.time);
     lane.cycle_start = select(thrust_begins, lane.time, lane.cycle_start);
     const Real next_half = select(thrust_begins, lane.on_time, lane.off_time);
     if constexpr (Watch::is_active) {
-        const char* name = air.lands       ? "landing"
-                           : leaves        ? "take-off"
+        const char* name = next.lands      ? "landing"
+                           : next.leaves   ? "take-off"
                            : thrust_begins ? "thrust on"
                            : thrust_ends   ? "thrust off"
                                            : "";
         hopper_lane<Real> after = lane;
         after.until_edge = edge ? next_half : lane.until_edge;
         after.thrust_on = edge ? (thrust_begins ? one : zero) : lane.thrust_on;
-        if (active) report(was, after, duration, name, watch);
+        if (moves) report(was, after, next.duration, name, watch);
     }
     lane.until_edge = select(edge, next_half, lane.until_edge);
     lane.thrust_on = select(edge, select(thrust_begins, one, zero), lane.thrust_on);
@@ -217,11 +223,68 @@ HOPSCOTCH_DEVICE inline progress<Real> advance(hopper_lane<Real>& lane, const ma
     if (any(waits)) {
         ended = select(has_settled<Terms>(lane, waits), code_of<Real>(outcome::no_hop), ended);
     }
-    const Real sum = duration + lane.height + lane.velocity + lane.first_column;
+    const Real sum = next.duration + lane.height + lane.velocity + lane.first_column;
     const mask_of<Real> finite = sum - sum == zero;
-    ended = select(active & !finite, code_of<Real>(outcome::not_finite), ended);
-    const mask_of<Real> completed = returned & finite;
-    return {completed, ended};
+    ended = select(moves & !finite, code_of<Real>(outcome::not_finite), ended);
+    return {returned & finite, ended};
+}
+
+/// Time to the clock's edge and a little more: events closer to it come before it.
+template <class Real>
+HOPSCOTCH_DEVICE inline primal_of<Real> time_to_edge(const hopper_lane<Real>& lane) {
+    const primal_of<Real> tie = primal(lane.on_time + lane.off_time) * primal_of<Real>(tie_share);
+    return primal(lane.until_edge) + tie;
+}
+
+/// The next event of lanes in the air.
+template <class Terms, class Real, class Watch>
+HOPSCOTCH_DEVICE inline progress<Real> fly(hopper_lane<Real>& lane, const mask_of<Real>& airborne,
+                                           Watch& watch) {
+    const air_event<Real> air = next_in_air<Terms>(lane, time_to_edge(lane), airborne);
+    const mask_of<Real> none = airborne & !airborne;
+    return take_event<Terms, true>(
+        lane, {air.time, air.height, air.velocity, air.leg, air.lands, none, none}, airborne,
+        watch);
+}
+
+/// The next event of lanes on the ground.
+template <class Terms, class Real, class Watch>
+HOPSCOTCH_DEVICE inline progress<Real> stand(hopper_lane<Real>& lane, const mask_of<Real>& grounded,
+                                             Watch& watch) {
+    const ground_event<Real> ground = next_on_ground<Terms>(lane, time_to_edge(lane), grounded);
+    const mask_of<Real> chatters = ground.leaves & is_chatter(lane, ground.height, ground.velocity,
+                                                              lane.until_edge - ground.time);
+    const mask_of<Real> none = grounded & !grounded;
+    return take_event<Terms, false>(
+        lane,
+        {ground.time, ground.height, select(chatters, Real(0.0), ground.velocity), Real(0.0), none,
+         ground.leaves & !chatters, chatters},
+        grounded, watch);
+}
+
+/// The next events up to one on the ground: a stance costs ten times what a flight does, so no lane
+/// is to sit one out.
+template <class Terms, class Real, class Watch>
+HOPSCOTCH_DEVICE inline progress<Real> advance(hopper_lane<Real>& lane, const mask_of<Real>& active,
+                                               Watch& watch) {
+    const Real zero(0.0);
+    constexpr int most_flights = Terms::has_force_guard ? 1 : 2;  // an edge, and the landing
+    progress<Real> done{active & !active, zero};
+    mask_of<Real> goes_on = active;
+    for (int i = 0; i < most_flights; ++i) {
+        const mask_of<Real> airborne = goes_on & (lane.airborne > zero);
+        if (!any(airborne)) break;
+        const progress<Real> flown = fly<Terms>(lane, airborne, watch);
+        done.returned = done.returned | flown.returned;
+        done.ended = select(airborne, flown.ended, done.ended);
+        goes_on = goes_on & !flown.returned & (done.ended == zero);
+    }
+    const mask_of<Real> grounded = goes_on & !(lane.airborne > zero);
+    if (!any(grounded)) return done;
+    const progress<Real> stood = stand<Terms>(lane, grounded, watch);
+    done.returned = done.returned | stood.returned;
+    done.ended = select(grounded, stood.ended, done.ended);
+    return done;
 }
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET::openloop

@@ -62,6 +62,15 @@ struct oscillator {
         return result;
     }
 
+    /// 1 / n, to half an ulp also where double is too short for it.
+    HOPSCOTCH_DEVICE static Real reciprocal(int n) {
+        if constexpr (lane_traits<Real>::rounding > 0x1p-60) {
+            return Real(1.0 / static_cast<double>(n));
+        } else {
+            return Real(1.0) / Real(static_cast<double>(n));
+        }
+    }
+
     /// Taylor series for |s| (1 + 2 zeta) <= 1/16.
     HOPSCOTCH_DEVICE response<Real> series_at(const Real& s) const {
         constexpr int terms = lane_traits<Real>::rounding > 0x1p-60    ? 12
@@ -69,13 +78,13 @@ struct oscillator {
                                                                        : 36;
         Real before(0.0);  // n-th and (n+1)-th derivatives of the impulse response at 0
         Real current(1.0);
-        Real power(1.0);  // s^n / n!
+        Real power = s;  // s^n / n!
         Real step(0.0);
         Real impulse(0.0);
         for (int n = 1; n < terms; ++n) {
-            power = power * s / Real(n);
             impulse = fma(current, power, impulse);
-            step = fma(current, power * s / Real(n + 1), step);
+            power = power * s * reciprocal(n + 1);
+            step = fma(current, power, step);
             const Real next = -fma(Real(2.0) * damping, current, before);
             before = current;
             current = next;
@@ -166,7 +175,15 @@ HOPSCOTCH_DEVICE inline crossing<Real> first_rise(const solution<AnyDamping, Rea
     }
     const plain low = select(sinks, turning, zero);
     const plain high = smaller(select(sinks, turning + half_turn, turning), horizon);
-    const auto rising = [&](const plain& s) { return value.at(s); };
+    // Halley's method: the oscillator's equation gives the second derivative for nothing
+    const auto rising = [&](const plain& s) {
+        const value_and_slope<plain> there = value.at(s);
+        const plain slope = there.slope;
+        const plain pull =
+            -fma(plain(2.0) * value.spring.damping, slope, there.value - value.resting);
+        const plain under = fma(plain(-0.5) * there.value, pull, slope * slope);
+        return value_and_step<plain>{there.value, there.value * slope / under};
+    };
     const mask_of<Real> found = wanted & (low < horizon) & (rising(high).value > zero);
     plain time = high;
     if (any(found)) {
@@ -174,9 +191,13 @@ HOPSCOTCH_DEVICE inline crossing<Real> first_rise(const solution<AnyDamping, Rea
         const plain twice = low + low;
         const mask_of<Real> launched = sinks & (value.value == zero) & (twice < high);
         const plain guess = select(launched, twice, (low + high) * plain(0.5));
-        time = bracketed_root<plain>(rising, {low, high}, guess, found);
+        time = bracketed_root<plain, 3>(rising, {low, high}, guess, found);
     }
-    return {found, implicit_root(time, x.at(Real(time)).value, rising(time).slope)};
+    if constexpr (without_derivatives<Real>) {
+        return {found, time};
+    } else {
+        return {found, implicit_root(time, x.at(Real(time)).value, value.at(time).slope)};
+    }
 }
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET::openloop

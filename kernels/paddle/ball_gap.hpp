@@ -30,13 +30,18 @@ struct ball_gap {
         const Real half(0.5);
         const auto is_short = t <= half;
         const sine_cosine<Real> turn = sin_cos(t);
-        const Real near = select(is_short, t, half);
-        const Real square = near * near;
-        const Real cubic = near * square / Real(6.0) * nested_sum<2, 3>(square);  // t - sin t
-        const Real quartic =
-            square * square / Real(24.0) * nested_sum<3, 4>(square);  // cos t - 1 + t^2 / 2
-        const Real verse = select(is_short, half * square - quartic, one - turn.cos);
-        const Real lag = select(is_short, cubic, t - turn.sin);
+        Real cubic(0.0);    // t - sin t
+        Real quartic(0.0);  // cos t - 1 + t^2 / 2
+        Real verse = one - turn.cos;
+        Real lag = t - turn.sin;
+        if (any(is_short)) {
+            const Real near = select(is_short, t, half);
+            const Real square = near * near;
+            cubic = near * square / Real(6.0) * nested_sum<2, 3>(square);
+            quartic = square * square / Real(24.0) * nested_sum<3, 4>(square);
+            verse = select(is_short, half * square - quartic, verse);
+            lag = select(is_short, cubic, lag);
+        }
         // on short flights the t^2 terms of ball and paddle are joined before they cancel
         const Real gravity = select(is_short, weight, one);
         const Real rise = select(is_short, -quartic, verse);
@@ -148,7 +153,8 @@ HOPSCOTCH_DEVICE inline Real first_contact(const flight_search<Real>& search,
     now.to = select(search.has_convex, now.to, fma(search.latest, Real(1.0 + 1e-9), Real(1e-6)));
     mask_of<Real> searching = wanted;
     found = wanted & !wanted;
-    Real contact = zero;
+    bracket<Real> within{zero, zero};  // of the contact
+    Real begin = zero;
     for (int i = 0; i < 4000 && any(searching); ++i) {
         const mask_of<Real> skipped =
             (now.from >= search.above_from) & (now.to < search.above_to) & search.has_convex;
@@ -179,24 +185,15 @@ HOPSCOTCH_DEVICE inline Real first_contact(const flight_search<Real>& search,
                 }
             }
             const mask_of<Real> hits = (bowl | (here & !now.is_convex)) & (end.value <= zero);
-            if (any(hits)) {
-                // Newton's method for gap / t, so that the zero at launch is not met
-                const auto fallen = [&](const Real& t) {
-                    const gap_values<Real> gap = search.gap.at(t);
-                    return value_and_step<Real>{-gap.value,
-                                                gap.value * t / fma(gap.rate, t, -gap.value)};
-                };
-                const Real short_flight = (search.gap.speed + search.gap.speed) / search.gap.weight;
-                const Real guess =
-                    select(is_first & (short_flight > zero) & (short_flight < now.to), short_flight,
-                           search.lowest_start);
-                const Real start =
-                    select(guess < now.to, guess,
-                           select(now.is_convex, (now.from + lowest) * half, now.to));
-                const Real time = bracketed_root<Real>(fallen, {now.from, lowest}, start, hits);
-                contact = select(hits, time, contact);
-                found = found | hits;
-            }
+            const Real short_flight = (search.gap.speed + search.gap.speed) / search.gap.weight;
+            const Real guess = select(is_first & (short_flight > zero) & (short_flight < now.to),
+                                      short_flight, search.lowest_start);
+            const Real start = select(guess < now.to, guess,
+                                      select(now.is_convex, (now.from + lowest) * half, now.to));
+            within.low = select(hits, now.from, within.low);
+            within.high = select(hits, lowest, within.high);
+            begin = select(hits, start, begin);
+            found = found | hits;
             searching = searching & !hits;
         }
         // to the next piece, or to the one before the ball comes down to the stroke again
@@ -213,7 +210,17 @@ HOPSCOTCH_DEVICE inline Real first_contact(const flight_search<Real>& search,
         now.is_convex = next_convex;
         searching = searching & (now.from == now.from);
     }
-    return contact;
+    // all lanes together, once every one has its piece. Halley's method for gap / t, so that the
+    // zero at launch is not met
+    const auto fallen = [&](const Real& t) {
+        const gap_values<Real> gap = search.gap.at(t);
+        const Real value = gap.value;
+        const Real slope = fma(gap.rate, t, -value);                    // of gap / t, times t^2
+        const Real bend = fma(gap.curvature * t, t, -(slope + slope));  // second one, times t^3
+        const Real under = fma(-half * value, bend, slope * slope);
+        return value_and_step<Real>{-value, value * t * slope / under};
+    };
+    return select(found, bracketed_root<Real, 3>(fallen, within, begin, found), zero);
 }
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET::paddle

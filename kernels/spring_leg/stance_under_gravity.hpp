@@ -18,10 +18,64 @@ struct stance_series {
     taylor::series<Real> time;    // elapsed since the step's beginning
 };
 
+/// Coefficient n of x u, r u and (1 - r) x, and of the same in the other coordinate.
+template <class Real>
+struct leg_products {
+    Real outward, drift_x, drift_y, pull_x, pull_y;
+};
+
+/// The pairs i, n - i of six Cauchy products together: independent chains hide the latency of the
+/// fused operations, and every coefficient of a pair serves four of them.
+template <class Real>
+HOPSCOTCH_DEVICE inline leg_products<Real> products_of(const stance_series<Real>& a, int n) {
+    const Real x0 = a.x.c[0];
+    const Real y0 = a.y.c[0];
+    const Real u0 = a.x_rate.c[0];
+    const Real w0 = a.y_rate.c[0];
+    const Real r0 = a.length.c[0];
+    const Real compression = a.guard.c[0];
+    if (n == 0) return {fma(x0, u0, y0 * w0), r0 * u0, r0 * w0, compression * x0, compression * y0};
+    Real along_x = fma(a.x.c[n], u0, x0 * a.x_rate.c[n]);
+    Real along_y = fma(a.y.c[n], w0, y0 * a.y_rate.c[n]);
+    Real drift_x = fma(a.length.c[n], u0, r0 * a.x_rate.c[n]);
+    Real drift_y = fma(a.length.c[n], w0, r0 * a.y_rate.c[n]);
+    Real stretch_x = a.length.c[n] * x0;  // of (r - r_0) x
+    Real stretch_y = a.length.c[n] * y0;
+    int i = 1;
+    int j = n - 1;
+    for (; i < j; ++i, --j) {
+        const Real xi = a.x.c[i];
+        const Real xj = a.x.c[j];
+        const Real yi = a.y.c[i];
+        const Real yj = a.y.c[j];
+        const Real ui = a.x_rate.c[i];
+        const Real uj = a.x_rate.c[j];
+        const Real wi = a.y_rate.c[i];
+        const Real wj = a.y_rate.c[j];
+        const Real ri = a.length.c[i];
+        const Real rj = a.length.c[j];
+        along_x = fma(xj, ui, fma(xi, uj, along_x));
+        along_y = fma(yj, wi, fma(yi, wj, along_y));
+        drift_x = fma(rj, ui, fma(ri, uj, drift_x));
+        drift_y = fma(rj, wi, fma(ri, wj, drift_y));
+        stretch_x = fma(rj, xi, fma(ri, xj, stretch_x));
+        stretch_y = fma(rj, yi, fma(ri, yj, stretch_y));
+    }
+    if (i == j) {
+        const Real ri = a.length.c[i];
+        along_x = fma(a.x.c[i], a.x_rate.c[i], along_x);
+        along_y = fma(a.y.c[i], a.y_rate.c[i], along_y);
+        drift_x = fma(ri, a.x_rate.c[i], drift_x);
+        drift_y = fma(ri, a.y_rate.c[i], drift_y);
+        stretch_x = fma(ri, a.x.c[i], stretch_x);
+        stretch_y = fma(ri, a.y.c[i], stretch_y);
+    }
+    return {along_x + along_y, drift_x, drift_y, fma(compression, a.x.c[n], -stretch_x),
+            fma(compression, a.y.c[n], -stretch_y)};
+}
+
 /// Linear spring in the time s with dt = r ds: x' = r u, u' = kt (1 - r) x, w' = kt (1 - r) y - gt
-/// r, r' = x u + y w. A pass close to the foothold (r -> 0) takes no shorter steps in s. All
-/// products of an order are summed in one loop: independent chains hide the latency of the fused
-/// operations.
+/// r, r' = x u + y w. A pass close to the foothold (r -> 0) takes no shorter steps in s.
 template <class Real>
 HOPSCOTCH_DEVICE inline void expand_linear(stance_series<Real>& a, const Real& stiffness,
                                            const Real& gravity) {
@@ -30,25 +84,12 @@ HOPSCOTCH_DEVICE inline void expand_linear(stance_series<Real>& a, const Real& s
     a.guard.c[0] = Real(1.0) - a.length.c[0];
     for (int n = 0; n < taylor::order<Real>; ++n) {
         const int m = n + 1;
-        Real outward = a.x.c[0] * a.x_rate.c[n];
-        Real upward = a.y.c[0] * a.y_rate.c[n];
-        Real drift_x = a.length.c[0] * a.x_rate.c[n];
-        Real drift_y = a.length.c[0] * a.y_rate.c[n];
-        Real pull_x = a.guard.c[0] * a.x.c[n];
-        Real pull_y = a.guard.c[0] * a.y.c[n];
-        for (int i = 1; i <= n; ++i) {
-            outward = fma(a.x.c[i], a.x_rate.c[n - i], outward);
-            upward = fma(a.y.c[i], a.y_rate.c[n - i], upward);
-            drift_x = fma(a.length.c[i], a.x_rate.c[n - i], drift_x);
-            drift_y = fma(a.length.c[i], a.y_rate.c[n - i], drift_y);
-            pull_x = fma(a.guard.c[i], a.x.c[n - i], pull_x);
-            pull_y = fma(a.guard.c[i], a.y.c[n - i], pull_y);
-        }
-        a.x.c[m] = over(drift_x, m);
-        a.y.c[m] = over(drift_y, m);
-        a.x_rate.c[m] = over(stiffness * pull_x, m);
-        a.y_rate.c[m] = over(fma(stiffness, pull_y, -(gravity * a.length.c[n])), m);
-        a.length.c[m] = over(outward + upward, m);
+        const leg_products<Real> sum = products_of(a, n);
+        a.x.c[m] = over(sum.drift_x, m);
+        a.y.c[m] = over(sum.drift_y, m);
+        a.x_rate.c[m] = over(stiffness * sum.pull_x, m);
+        a.y_rate.c[m] = over(fma(stiffness, sum.pull_y, -(gravity * a.length.c[n])), m);
+        a.length.c[m] = over(sum.outward, m);
         a.guard.c[m] = -a.length.c[m];
         a.time.c[m] = over(a.length.c[n], m);
     }

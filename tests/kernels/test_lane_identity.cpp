@@ -67,7 +67,7 @@ template <int Registers>
 std::vector<double> lanes_of(const pack<Registers>& x) {
     constexpr int n = static_cast<int>(simd_register::size);
     std::vector<double> result(static_cast<std::size_t>(Registers * n));
-    for (int i = 0; i < Registers; ++i) x.part[i].store_unaligned(result.data() + i * n);
+    for (int i = 0; i < Registers; ++i) x.at(i).store_unaligned(result.data() + i * n);
     return result;
 }
 
