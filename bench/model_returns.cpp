@@ -63,6 +63,7 @@ void model_returns::set_starts(const std::vector<double>& rows) {
 }
 
 int model_returns::variant() const {
+    if (forced_variant_ >= 0) return forced_variant_;
     return model_->variant({parameters_.data(), parameters_.data(), options_, wants_time_});
 }
 

@@ -30,6 +30,9 @@ public:
     std::size_t size() const { return size_; }
     const double* start(std::size_t i) const { return rows_.data() + i * row_length(); }
 
+    /// A compiled variant other than the one that serves the parameters.
+    void use_variant(int compiled) { forced_variant_ = compiled; }
+
     /// What is timed: states and outcomes after `returns` returns.
     /// \param tolerance  of integrated flows; 0: the model's own
     lane_statistics compute(backend which, double tolerance = 0.0, std::uint32_t returns = 1);
@@ -69,6 +72,7 @@ private:
     int section_;
     int n_columns_;
     bool wants_time_;
+    int forced_variant_ = -1;
     std::vector<double> parameters_;
     int options_[most_options] = {};
     std::size_t size_ = 0;

@@ -72,7 +72,6 @@ struct pack_mask {
 
     // The members are the compiler's own registers, not xsimd's classes, and copied one by one:
     // g++ 12 copies classes as bytes, through memory, and cannot drop the copies.
-    // register by register: g++ 12 copies the array as bytes, through memory, 16 at a time.
     pack_mask() = default;
     [[gnu::always_inline]] pack_mask(const pack_mask& other) { copy(other); }
     [[gnu::always_inline]] pack_mask& operator=(const pack_mask& other) { return copy(other); }

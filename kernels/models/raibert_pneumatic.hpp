@@ -417,11 +417,13 @@ private:
         const auto end = taylor::first_zero(ending, horizon, flows);
         const auto falls_back =
             taylor::first_zero(taylor::without_zeros(a.velocity, still), horizon, flows & extends);
-        const taylor::guard_search<Real> off{end.found & extends, end.unresolved & extends,
-                                             end.time};
-        const taylor::guard_search<Real> turn{falls_back.found | (end.found & compresses),
-                                              falls_back.unresolved | (end.unresolved & compresses),
-                                              select(compresses, end.time, falls_back.time)};
+        taylor::guard_search<Real> off = end;
+        off.found = end.found & extends;
+        off.unresolved = end.unresolved & extends;
+        taylor::guard_search<Real> turn = falls_back;
+        turn.found = falls_back.found | (end.found & compresses);
+        turn.unresolved = falls_back.unresolved | (end.unresolved & compresses);
+        turn.time = select(compresses, end.time, falls_back.time);
         const mask_of<Real> lifts = flows & off.found & !(turn.found & (turn.time < off.time));
         const mask_of<Real> turns = flows & turn.found & !lifts;
         const Real s = select(lifts, off.time, select(turns, turn.time, Real(horizon)));

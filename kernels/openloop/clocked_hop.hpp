@@ -226,7 +226,8 @@ HOPSCOTCH_DEVICE inline progress<Real> take_event(hopper_lane<Real>& lane,
     const Real sum = next.duration + lane.height + lane.velocity + lane.first_column;
     const mask_of<Real> finite = sum - sum == zero;
     ended = select(moves & !finite, code_of<Real>(outcome::not_finite), ended);
-    return {returned & finite, ended};
+    const mask_of<Real> completed = returned & finite;
+    return {completed, ended};
 }
 
 /// Time to the clock's edge and a little more: events closer to it come before it.
@@ -255,11 +256,11 @@ HOPSCOTCH_DEVICE inline progress<Real> stand(hopper_lane<Real>& lane, const mask
     const mask_of<Real> chatters = ground.leaves & is_chatter(lane, ground.height, ground.velocity,
                                                               lane.until_edge - ground.time);
     const mask_of<Real> none = grounded & !grounded;
+    const mask_of<Real> leaves = ground.leaves & !chatters;
+    const Real velocity = select(chatters, Real(0.0), ground.velocity);
     return take_event<Terms, false>(
-        lane,
-        {ground.time, ground.height, select(chatters, Real(0.0), ground.velocity), Real(0.0), none,
-         ground.leaves & !chatters, chatters},
-        grounded, watch);
+        lane, {ground.time, ground.height, velocity, Real(0.0), none, leaves, chatters}, grounded,
+        watch);
 }
 
 /// The next events up to one on the ground: a stance costs ten times what a flight does, so no lane
@@ -269,7 +270,8 @@ HOPSCOTCH_DEVICE inline progress<Real> advance(hopper_lane<Real>& lane, const ma
                                                Watch& watch) {
     const Real zero(0.0);
     constexpr int most_flights = Terms::has_force_guard ? 1 : 2;  // an edge, and the landing
-    progress<Real> done{active & !active, zero};
+    const mask_of<Real> none = active & !active;
+    progress<Real> done{none, zero};
     mask_of<Real> goes_on = active;
     for (int i = 0; i < most_flights; ++i) {
         const mask_of<Real> airborne = goes_on & (lane.airborne > zero);

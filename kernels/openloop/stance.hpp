@@ -175,7 +175,8 @@ HOPSCOTCH_DEVICE inline crossing<Real> first_rise(const solution<AnyDamping, Rea
     }
     const plain low = select(sinks, turning, zero);
     const plain high = smaller(select(sinks, turning + half_turn, turning), horizon);
-    // Halley's method: the oscillator's equation gives the second derivative for nothing
+    // Halley's method: the oscillator's equation gives the second derivative for nothing. Stopped
+    // like Newton's, because next to a graze it is as slow.
     const auto rising = [&](const plain& s) {
         const value_and_slope<plain> there = value.at(s);
         const plain slope = there.slope;
@@ -191,7 +192,7 @@ HOPSCOTCH_DEVICE inline crossing<Real> first_rise(const solution<AnyDamping, Rea
         const plain twice = low + low;
         const mask_of<Real> launched = sinks & (value.value == zero) & (twice < high);
         const plain guess = select(launched, twice, (low + high) * plain(0.5));
-        time = bracketed_root<plain, 3>(rising, {low, high}, guess, found);
+        time = bracketed_root<plain>(rising, {low, high}, guess, found);
     }
     if constexpr (without_derivatives<Real>) {
         return {found, time};

@@ -211,7 +211,7 @@ HOPSCOTCH_DEVICE inline Real first_contact(const flight_search<Real>& search,
         searching = searching & (now.from == now.from);
     }
     // all lanes together, once every one has its piece. Halley's method for gap / t, so that the
-    // zero at launch is not met
+    // zero at launch is not met; stopped like Newton's, because next to a graze it is as slow
     const auto fallen = [&](const Real& t) {
         const gap_values<Real> gap = search.gap.at(t);
         const Real value = gap.value;
@@ -220,7 +220,7 @@ HOPSCOTCH_DEVICE inline Real first_contact(const flight_search<Real>& search,
         const Real under = fma(-half * value, bend, slope * slope);
         return value_and_step<Real>{-value, value * t * slope / under};
     };
-    return select(found, bracketed_root<Real, 3>(fallen, within, begin, found), zero);
+    return select(found, bracketed_root<Real>(fallen, within, begin, found), zero);
 }
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET::paddle

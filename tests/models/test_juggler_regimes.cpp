@@ -53,6 +53,49 @@ cycle cycle_of(const named_map& settled) {
     return {};
 }
 
+// --------------------------------------------------------------- restitution towards 1
+
+TEST(juggler_regimes, next_to_restitution_1_the_map_nearly_keeps_area) {
+    // det J = e^2 U / U' (page, section 4), from the exact derivatives at random starts
+    std::mt19937_64 bits(1);
+    std::uniform_real_distribution<double> phase(0.0, 2 * M_PI), speed(2.0, 12.0);
+    for (const double e : {1 - 1e-3, 1 - 1e-6, 1 - 0x1p-40}) {
+        for (int i = 0; i < 40; ++i) {
+            const named_map start = paddle(2.0, e, phase(bits), speed(bits));
+            const map_image f = start.image();
+            ASSERT_EQ(f.end, outcome::ok);
+            const double weighed = f.jacobian.determinant() * f.state[1] / start.start[1];
+            // rounding of two products of the size of the entries
+            const double size = f.jacobian.squaredNorm() * std::abs(f.state[1] / start.start[1]);
+            EXPECT_NEAR(weighed, e * e, 1e-14 * (1 + size)) << e;
+        }
+    }
+}
+
+TEST(juggler_regimes, speeds_next_to_restitution_1_stay_below_gamma_over_1_minus_e) {
+    // A ball launched at V lands with at most sqrt(V^2 + 4 Gamma), and leaves with
+    // e times that and (1 + e) Gamma: so V ends below the root of V = e sqrt(V^2 + 4 Gamma) +
+    // (1 + e) Gamma, about 2 Gamma / (1 - e).
+    const double gamma = 2.0;
+    for (const double e : {0.9, 0.99}) {
+        double bound = 4 * gamma / (1 - e);
+        for (int i = 0; i < 10000; ++i)
+            bound = e * std::sqrt(bound * bound + 4 * gamma) + (1 + e) * gamma;
+        double highest = 0.0;
+        for (int i = 0; i < 8; ++i) {
+            named_map ball = paddle(gamma, e, 0.1 + 0.7 * i, 5.0);
+            for (int n = 0; n < 600; ++n) {
+                const orbit_answer next = ball.answer(1);
+                if (next.end != outcome::ok) break;
+                ball.start = {std::stod(next.columns[0]), std::stod(next.columns[1])};
+                highest = std::fmax(highest, ball.start[1] + gamma * std::cos(ball.start[0]));
+            }
+        }
+        EXPECT_LT(highest, bound) << e;
+        EXPECT_GT(highest, 4 * gamma) << e;  // grows well beyond one stroke's speed
+    }
+}
+
 // ------------------------------------------------------------- Shannon's juggler (e = 0)
 
 TEST(juggler_regimes, shannon_bounces_on_a_whole_interval_of_amplitudes) {
