@@ -1,7 +1,6 @@
 #include "analysis/metrics/read_classes.hpp"
 
 #include "host/map/rows.hpp"
-#include "kernels/contract/outcome.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,11 +23,6 @@ struct cell_code {
 
 bool is_undecided(outcome end) {
     return end == outcome::budget || end == outcome::not_finite || end == outcome::unresolved_event;
-}
-
-bool is_failure(outcome end) {
-    return end != outcome::ok && end != outcome::attracted && end != outcome::stuck &&
-           end != outcome::rest;
 }
 
 /// A name as a file's list of flag meanings spells it.
@@ -181,6 +175,13 @@ void check_axes(const class_grid& grid) {
 }
 
 }  // namespace
+
+bool is_failure(outcome end) {
+    const bool is_rest = end == outcome::stuck || end == outcome::rest;
+    const bool goes_on = end == outcome::ok || end == outcome::attracted;
+    return !goes_on && !is_rest && !is_undecided(end) && end != outcome::invalid_start &&
+           static_cast<std::size_t>(end) < outcome_names.size();
+}
 
 std::string layer_of(const map_reader& map, const class_choice& choice) {
     if (!choice.layer.empty()) return choice.layer;

@@ -3,10 +3,14 @@
 
 #include "analysis/metrics/class_grid.hpp"
 #include "host/store/map_reader.hpp"
+#include "kernels/contract/outcome.hpp"
 
 #include <string>
 
 namespace hopscotch::metrics {
+
+/// An orbit that ended by a failure: not at rest, not by its budget, not outside the domain.
+bool is_failure(outcome end);
 
 /// What cells without a label become where the map says how they ended.
 enum class fall_rule : std::uint8_t {

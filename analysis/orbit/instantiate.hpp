@@ -2,6 +2,7 @@
 // numbers over each. Included only by generated units, one per model.
 #pragma once
 
+#include "analysis/orbit/contact_survey.hpp"
 #include "analysis/orbit/enclose.hpp"
 #include "analysis/orbit/exponent_orbit.hpp"
 #include "analysis/orbit/orbit_functions.hpp"
@@ -288,10 +289,38 @@ orbit_answer trace_orbit(const orbit_row& row, orbit_observer& observer) {
 }
 
 template <class Model>
+orbit_survey survey_orbit(const jet_query& query) {
+    return with_variant<Model>(query.variant, [&](auto variant) {
+        const orbit_row row{.section = query.section,
+                            .options = query.options,
+                            .returns = query.returns,
+                            .max_steps = query.max_steps,
+                            .tolerance = query.tolerance};
+        single_orbit<Model, variant(), double> orbit(row);
+        contact_survey<Model> watch(query.parameters, query.options);
+        orbit.run(query.columns, query.parameters, watch);
+        orbit_survey survey = watch.found;
+        survey.end = orbit.end;
+        survey.returns = orbit.returns;
+        return survey;
+    });
+}
+
+/// The survey of a model with a contact; none of others.
+template <class Model>
+constexpr auto survey_of() -> orbit_survey (*)(const jet_query&) {
+    if constexpr (has_contact<Model>) {
+        return &survey_orbit<Model>;
+    } else {
+        return nullptr;
+    }
+}
+
+template <class Model>
 inline constexpr orbit_functions orbit_table{
     &run_orbit<Model, double>, &run_orbit<Model, double_double<double>>,
     &run_orbit<Model, real50>, &trace_orbit<Model>,
     &run_jet<Model>,           &run_exponents<Model>,
-    &enclose_returns<Model>};
+    &enclose_returns<Model>,   survey_of<Model>()};
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

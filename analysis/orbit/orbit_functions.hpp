@@ -9,6 +9,7 @@
 #include "kernels/ensemble/request.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -82,6 +83,16 @@ struct exponent_answer {
     double exponents[most_columns] = {};
 };
 
+/// What an orbit meets at its model's contact (kernels/contract/contact.hpp); NaN where it meets
+/// none. Gaps count at their turning points between the orbit's start and its end.
+struct orbit_survey {
+    outcome end = outcome::ok;
+    std::uint32_t returns = 0;
+    double clearance = std::numeric_limits<double>::quiet_NaN();     // the smallest minimum
+    double hop_height = std::numeric_limits<double>::quiet_NaN();    // the smallest maximum
+    double impact_speed = std::numeric_limits<double>::quiet_NaN();  // the largest
+};
+
 /// Watches one orbit (see kernels/contract/watch.hpp). `sampler(t, columns)` gives the state t
 /// after the beginning of the phase.
 struct orbit_observer {
@@ -109,6 +120,7 @@ struct orbit_functions {
     return_jet (*jet)(const jet_query&);
     exponent_answer (*exponents)(const orbit_row&, const exponent_request&);  // in double-double
     enclosed_returns (*enclose)(const enclosed_query&);  // over whole sets of starts
+    orbit_survey (*survey)(const jet_query&);  // in double; null where the model has no contact
 };
 
 }  // namespace hopscotch

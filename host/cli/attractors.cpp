@@ -7,9 +7,11 @@
 #include "host/cli/tables.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/run/json.hpp"
+#include "host/run/trap_gain.hpp"
 #include "host/scene/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -34,17 +36,34 @@ std::string numbers_text(const std::vector<double>& numbers) {
     return numbers.size() > most ? text + " ..." : text;
 }
 
-std::string table_of(const label_plan& plan) {
+/// Share of the sampled cells; NaN where none were sampled.
+double share_of(const basin_sample& sample, int label) {
+    const auto found = sample.labels.find(label);
+    const std::uint64_t n = found == sample.labels.end() ? 0 : found->second;
+    return static_cast<double>(n) / static_cast<double>(sample.n_cells);
+}
+
+/// Without its standard error where every cell was looked at.
+std::string share_text(const scene& scene, const basin_sample& sample, int label) {
+    if (sample.n_cells == 0) return "";
+    const double share = share_of(sample, label);
+    if (sample.n_cells == scene.n_cells()) return fmt::format("{:.4g}", share);
+    const double error = std::sqrt(share * (1.0 - share) / static_cast<double>(sample.n_cells));
+    return fmt::format("{:.3g} +- {:.2g}", share, error);
+}
+
+std::string table_of(const scene& scene, const label_plan& plan, const basin_sample& sample) {
     std::vector<std::vector<std::string>> rows{
         {"label", "name", "period", fmt::format("points ({})", fmt::join(plan.point_columns, " ")),
-         "multipliers", "trap"}};
+         "multipliers", "basin", "trap"}};
     for (const attractor_row& row : plan.attractors) {
         rows.push_back({fmt::format("{}", row.label), row.name, fmt::format("{}", row.period),
-                        numbers_text(row.points), numbers_text(row.multipliers_real), row.trap});
+                        numbers_text(row.points), numbers_text(row.multipliers_real),
+                        share_text(scene, sample, row.label), row.trap});
     }
     for (const attractor_row& row : plan.unstable) {
         rows.push_back({"-", row.name, fmt::format("{}", row.period), numbers_text(row.points),
-                        numbers_text(row.multipliers_real), row.trap});
+                        numbers_text(row.multipliers_real), "", row.trap});
     }
     return aligned(rows, 0);
 }
@@ -104,24 +123,28 @@ std::string side_json(const stability_side& side) {
         side.attracts, side.coefficient, side.exponent, side.extent);
 }
 
-std::string rows_json(const std::vector<attractor_row>& rows) {
+std::string rows_json(const std::vector<attractor_row>& rows, const basin_sample& sample) {
     std::string text;
     for (const attractor_row& row : rows) {
         text += fmt::format(
             "{}\n  {{\"label\": {}, \"name\": {}, \"period\": {}, \"points\": {}, "
-            "\"multipliers_real\": {}, \"multipliers_imaginary\": {}, \"trap\": {}}}",
+            "\"multipliers_real\": {}, \"multipliers_imaginary\": {}, \"share\": {}, \"trap\": "
+            "{}}}",
             text.empty() ? "" : ",", row.label, json_text(row.name), row.period,
             json_numbers(row.points), json_numbers(row.multipliers_real),
-            json_numbers(row.multipliers_imaginary), json_text(row.trap));
+            json_numbers(row.multipliers_imaginary),
+            json_number(row.label > 0 ? share_of(sample, row.label) : std::nan("")),
+            json_text(row.trap));
     }
     return text;
 }
 
 std::string json_of(const scene& scene, const label_plan& plan, const std::vector<sided_row>& rows,
-                    const std::vector<sector_row>& sectors) {
+                    const std::vector<sector_row>& sectors, const basin_sample& sample) {
     std::string text = fmt::format("{{\"model\": {}, \"columns\": {}, \"attractors\": [",
                                    json_text(scene.info().name), json_texts(plan.point_columns));
-    text += rows_json(plan.attractors) + "\n], \"unstable\": [" + rows_json(plan.unstable);
+    text += rows_json(plan.attractors, sample);
+    text += "\n], \"unstable\": [" + rows_json(plan.unstable, sample);
     text += "\n], \"one_sided\": [";
     for (std::size_t i = 0; i < rows.size(); ++i) {
         text += fmt::format(
@@ -129,7 +152,10 @@ std::string json_of(const scene& scene, const label_plan& plan, const std::vecto
             i == 0 ? "" : ",", json_text(rows[i].name), json_numbers(rows[i].parameters),
             side_json(rows[i].sides.left), side_json(rows[i].sides.right));
     }
-    return text + "\n], \"sectors\": " + sector_json(sectors) + "}\n";
+    text += fmt::format(
+        "\n], \"sampled_cells\": {}, \"returns_per_labelled_cell\": {}, \"trap_gain\": {}",
+        sample.n_cells, json_number(sample.gain.mean()), json_number(sample.gain.factor()));
+    return text + ", \"sectors\": " + sector_json(sectors) + "}\n";
 }
 
 int attractors(const attractor_arguments& given) {
@@ -137,11 +163,16 @@ int attractors(const attractor_arguments& given) {
     const label_plan plan = plan_labels(scene);
     const std::vector<sided_row> rows = sided_rows(scene, plan);
     const std::vector<sector_row> sectors = sector_table(scene, plan);
-    fmt::print("{}{}{}", table_of(plan), sided_table(scene, rows),
-               sector_text(scene, plan, sectors));
+    // a plan of its own for every cell would have to be made for each
+    const basin_sample sample = plan.of_cell ? basin_sample{} : sample_basins(scene, plan);
+    fmt::print("{}", table_of(scene, plan, sample));
+    if (sample.gain.n_labelled > 0) {
+        fmt::print("traps: {} ({} cells sampled)\n", text_of(sample.gain), sample.n_cells);
+    }
+    fmt::print("{}{}", sided_table(scene, rows), sector_text(scene, plan, sectors));
     const std::string stem = std::filesystem::path(scene.file).stem().string();
     const std::string file = given.output.empty() ? stem + "_attractors.json" : given.output;
-    put_text(file, json_of(scene, plan, rows, sectors));
+    put_text(file, json_of(scene, plan, rows, sectors, sample));
     if (file != "-") fmt::print("{}\n", file);
     return exit_done;
 }

@@ -2,6 +2,7 @@
 #include "host/cli/run_answer.hpp"
 
 #include "analysis/labels/plan.hpp"
+#include "analysis/metrics/failing_layer.hpp"
 #include "analysis/render/render.hpp"
 #include "host/cli/companion.hpp"
 #include "host/cli/shard_argument.hpp"
@@ -61,6 +62,9 @@ int part_done(const run_report& report, const shard& part) {
 run_hooks hooks_of(const scene& scene, const std::filesystem::path& file) {
     run_hooks hooks;
     hooks.plan = plan_labels;
+    if (metrics::wants_failing_distance(scene)) {
+        hooks.finish_layers = metrics::fill_failing_distances;
+    }
     if (scene.model->orbits_table == nullptr) return hooks;
     hooks.audit = [file](const struct scene& what, const label_plan& plan, const map_run& run) {
         const audit_report report = audit(

@@ -4,6 +4,7 @@
 #include "host/run/requests.hpp"
 #include "host/run/backends.hpp"
 #include "host/run/orbit_diagram.hpp"
+#include "host/run/surveys.hpp"
 #include "host/scene/grid.hpp"
 
 #include <algorithm>
@@ -29,6 +30,12 @@ struct sample_timing {
     double seconds = 0.0;
 };
 
+std::vector<layer_plan> surveyed_layers(const scene& scene) {
+    std::vector<layer_plan> layers = chosen_layers(scene);
+    std::erase_if(layers, [](const layer_plan& layer) { return !is_surveyed(layer.role); });
+    return layers;
+}
+
 sample_timing time_cells(const scene& scene, const label_plan& plan, const kernel_choice& kernel,
                          const std::vector<std::uint64_t>& cells) {
     cell_request request = request_of(scene, plan, cells);
@@ -36,8 +43,14 @@ sample_timing time_cells(const scene& scene, const label_plan& plan, const kerne
     std::vector<std::int16_t> labels(cells.size());
     request.request.outcome = outcomes.data();
     request.request.label = labels.data();
+    const std::vector<layer_plan> layers = surveyed_layers(scene);
+    std::vector<std::uint32_t> returns(layers.empty() ? 0 : cells.size());
+    std::vector<std::vector<std::byte>> buffers(
+        layers.size(), std::vector<std::byte>(cells.size() * sizeof(double)));
+    if (!layers.empty()) request.request.returns = returns.data();
     const auto begin = std::chrono::steady_clock::now();
     kernel.run(request.request);
+    fill_surveys(scene, request.request, layers, buffers);
     const auto end = std::chrono::steady_clock::now();
     sample_timing timing{cells.size(), 0, std::chrono::duration<double>(end - begin).count()};
     for (const int code : outcomes) timing.undecided += is_undecided(scene, code) ? 1 : 0;

@@ -55,6 +55,8 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
             return row.points.empty() && row.share == 0.0;
         });
     }
+    report.gain = gain_of(scene, run);
+    if (hooks.finish_layers) hooks.finish_layers(scene, run);
     if (hooks.audit && scene.accuracy.audit_cells > 0) report.audit = hooks.audit(scene, plan, run);
     report.hash = run.hash();
     attribute_list attributes = report.audit;
@@ -68,6 +70,7 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
         attributes.emplace_back("device_failure", report.device_failure);
     }
     if (!plan.searched.empty()) attributes.emplace_back(searched_cells, text_of(plan.searched));
+    if (report.gain.n_labelled > 0) attributes.emplace_back("trap_gain", text_of(report.gain));
     run.finish({attributes, report.attractors, plan.point_columns});
     report.is_finished = true;
 }

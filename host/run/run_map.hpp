@@ -5,6 +5,7 @@
 
 #include "host/run/label_plan.hpp"
 #include "host/run/progress.hpp"
+#include "host/run/trap_gain.hpp"
 #include "host/run/team.hpp"
 #include "host/scene/scene.hpp"
 #include "host/store/map_run.hpp"
@@ -29,11 +30,14 @@ struct run_choices {
     std::vector<std::filesystem::path> adopted{};  // run directories whose tiles are taken over
 };
 
-/// The analysis' part in a run. Both may be empty: then cells have no labels, and no audit is made.
+/// The analysis' part in a run. Any may be empty: then cells have no labels, no audit is made, and layers of
+/// the whole map are left "not computed".
 struct run_hooks {
     /// The plan of a scene's labels; cells that a first pass has left open are searched once more.
     std::function<label_plan(const scene&, std::span<const std::uint64_t> searched)> plan;
     std::function<attribute_list(const scene&, const label_plan&, const map_run&)> audit;
+    /// Fills layers that follow from the whole map, once all its tiles are there.
+    std::function<void(const scene&, map_run&)> finish_layers;
 };
 
 /// What a run has done, also where it was interrupted.
@@ -56,6 +60,7 @@ struct run_report {
     value_counts labels;
     value_counts motions;
     value_counts outcomes;
+    trap_gain gain;  // of the whole map
     std::string hash;
     attribute_list audit;
     std::vector<std::string> notes;

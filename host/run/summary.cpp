@@ -119,6 +119,9 @@ std::string text_of(const scene& scene, const run_report& report) {
     append_shares(text, "labels", label_shares(report));
     append_shares(text, "motion", motion_shares(report));
     append_shares(text, "outcomes", outcome_shares(report));
+    if (report.gain.n_labelled > 0) {
+        text += fmt::format("traps            {}\n", text_of(report.gain));
+    }
     for (const auto& [name, value] : report.audit) text += fmt::format("{:<16} {}\n", name, value);
     text += fmt::format("hash             {}\n", report.hash);
     return text;
@@ -152,6 +155,10 @@ std::string json_of(const scene& scene, const run_report& report) {
     add("labels", json_shares(label_shares(report)));
     if (!report.motions.empty()) add("motions", json_shares(motion_shares(report)));
     add("outcomes", json_shares(outcome_shares(report)));
+    if (report.gain.n_labelled > 0) {
+        add("returns_per_labelled_cell", json_number(report.gain.mean()));
+        add("trap_gain", json_number(report.gain.factor()));
+    }
     add("audit", json_attributes(report.audit));
     return text + fmt::format("  \"hash\": {}\n}}\n", json_text(report.hash));
 }

@@ -5,6 +5,7 @@
 #include "host/run/labelled_run.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/state_rule.hpp"
+#include "host/run/surveys.hpp"
 #include "host/run/uncertain.hpp"
 #include "host/scene/grid.hpp"
 
@@ -22,9 +23,9 @@ Number* numbers(std::vector<std::byte>& buffer) {
     return reinterpret_cast<Number*>(buffer.data());  // new gives memory aligned for every number
 }
 
-/// Points the kernel's result to the layer's buffer. Periods, immediate basins, uncertainty and
-/// levels are no results: they follow from the label, from the start, from further runs and from
-/// the refinement.
+/// Points the kernel's result to the layer's buffer. Other layers are no results: they follow from
+/// the label, from the start, from further runs, from the refinement, from the orbit watched alone,
+/// or from the finished map.
 void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::byte>& buffer) {
     switch (layer.role) {
         case layer_role::label:
@@ -67,6 +68,11 @@ void bind(ensemble_request& request, const layer_plan& layer, std::vector<std::b
         case layer_role::immediate:
         case layer_role::uncertain:
         case layer_role::level:
+        case layer_role::clearance:
+        case layer_role::hop_height:
+        case layer_role::impact_speed:
+        case layer_role::finite_exponent:
+        case layer_role::failing_distance:
             break;
     }
 }
@@ -157,6 +163,7 @@ layer_buffers compute_layers(const tile_job& job, const label_plan& plan, cell_r
     const auto run = [&](const ensemble_request& wanted) { return job.kernel.run(wanted); };
     lanes += run_labelled(job.what, plan, run, request);
     blank_states(job.what, request);
+    fill_surveys(job.what, request, job.layers, buffers);
     for (std::size_t i = 0; i < job.layers.size(); ++i) {
         if (job.layers[i].role == layer_role::period) {
             fill_periods(plan, request.label, n_cells, buffers[i]);

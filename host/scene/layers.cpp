@@ -2,6 +2,7 @@
 #include "host/scene/layers.hpp"
 
 #include "host/map/certainty.hpp"
+#include "analysis/orbit/orbit_functions.hpp"
 #include "kernels/contract/motion.hpp"
 
 #include <algorithm>
@@ -76,6 +77,34 @@ void add_exponents(const scene& scene, std::vector<layer_plan>& layers) {
                           std::numeric_limits<std::uint32_t>::max()));
 }
 
+/// What orbits are watched for, one by one: at the model's contact, and in their tangent space.
+void add_surveys(const scene& scene, std::vector<layer_plan>& layers) {
+    if (scene.model->orbits_table == nullptr) return;
+    const auto number = number_type::float64;
+    const contact_info* contact = scene.model->contact;
+    if (scene.model->has_gap) {
+        const std::string gap = " of the gap (" + std::string(contact->meaning) +
+                                ") between the orbit's contacts; NaN where there is none";
+        layers.push_back(plan(layer_role::clearance, "min_clearance", number,
+                              std::string(contact->gap_unit),
+                              "smallest local minimum" + gap + ": 0 is a grazing contact", nan));
+        layers.push_back(plan(layer_role::hop_height, "min_hop_height", number,
+                              std::string(contact->gap_unit), "smallest local maximum" + gap, nan));
+    }
+    if (contact != nullptr) {
+        layers.push_back(plan(layer_role::impact_speed, "impact_speed", number,
+                              std::string(contact->speed_unit),
+                              "largest speed of an " + std::string(contact->event) +
+                                  " of the orbit; NaN where there is none",
+                              nan));
+    }
+    if (scene.model->orbits().jet == nullptr) return;
+    layers.push_back(plan(layer_role::finite_exponent, "exponent", number, "1",
+                          "finite-time Lyapunov exponent log |DP^n| / n of the orbit's n completed "
+                          "returns (Frobenius norm)",
+                          nan));
+}
+
 }  // namespace
 
 std::vector<layer_plan> available_layers(const scene& scene) {
@@ -130,6 +159,17 @@ std::vector<layer_plan> available_layers(const scene& scene) {
         }
         layers.push_back(plan(layer_role::extra, std::string(extra.name), number_type::float64,
                               std::string(extra.unit), std::string(extra.meaning), nan, index++));
+    }
+    if (scene.question.kind != "lyapunov") add_surveys(scene, layers);
+    const auto n_long = std::count_if(scene.axes.begin(), scene.axes.end(),
+                                      [](const scene_axis& axis) { return axis.cells > 1; });
+    const bool can_fall = scene.question.has_labels || scene.question.kind == "steps_to_fall";
+    if (can_fall && n_long <= 3) {  // distances are transformed over up to three axes
+        layers.push_back(
+            plan(layer_role::failing_distance, "failing_distance", number_type::float64, "1",
+                 "distance to the nearest cell whose orbit fails, in cells of the grid "
+                 "(0 at such a cell; infinite where none fails)",
+                 nan));
     }
     return layers;
 }

@@ -28,7 +28,12 @@ enum class layer_role : std::uint8_t {
     exponent_returns,
     motion,
     uncertain,
-    level
+    level,
+    clearance,  // the roles from here on belong to one orbit watched in double
+    hop_height,
+    impact_speed,
+    finite_exponent,
+    failing_distance,  // follows from the finished map
 };
 
 struct layer_plan {

@@ -301,6 +301,11 @@ tile_data map_run::read(std::uint64_t tile) const {
     return checked_tile(self_->layout, stored, tile_path(self_->directory, tile).string());
 }
 
+double map_run::seconds_of(std::uint64_t tile) const {
+    const std::lock_guard guard(self_->mutex);
+    return self_->finished.at(tile)->seconds;
+}
+
 value_counts map_run::counts(std::string_view layer) const {
     const std::lock_guard guard(self_->mutex);
     const std::size_t index = layer_index(self_->layout, layer);

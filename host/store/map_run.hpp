@@ -88,6 +88,9 @@ public:
     /// The numbers of a finished tile, until `finish` has packed it.
     tile_data read(std::uint64_t tile) const;
 
+    /// Seconds that computing a finished tile took.
+    double seconds_of(std::uint64_t tile) const;
+
     /// How often each value of an integer layer (uint8, int16) occurs in the finished tiles.
     value_counts counts(std::string_view layer) const;
 

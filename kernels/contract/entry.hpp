@@ -3,6 +3,7 @@
 // units; a model is found here by name, so no code ever switches on a model.
 #pragma once
 
+#include "kernels/contract/contact.hpp"
 #include "kernels/contract/info.hpp"
 #include "kernels/ensemble/request.hpp"
 
@@ -25,6 +26,8 @@ struct model_entry {
     bool (*branch)(int index, const double* parameters, map_branch&);
     double (*turn)(int section, int column, const double* parameters);
     bool (*integrates)(int variant);  // does accuracy.tolerance decide its numbers?
+    const contact_info* contact;
+    bool has_gap;  // can the contact's gap be measured?
     // Tables are reached through pointers to them, so that no unit depends on another's
     // initialisation.
     const ensemble_function* const* kernels[n_backends];   // per backend; null where not built

@@ -39,6 +39,8 @@ constexpr model_entry described_entry() {
         entry.describe_label = &Model::describe_label;
     }
     entry.integrates = &variant_integrates<Model>;
+    if constexpr (has_contact<Model>) entry.contact = &Model::contact;
+    entry.has_gap = has_gap<Model>;
     if constexpr (has_branches<Model>) entry.branch = &Model::branch;
     if constexpr (has_turns<Model>) entry.turn = &Model::turn;
     return entry;

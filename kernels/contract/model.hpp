@@ -35,6 +35,8 @@
 //       // optional: the branches of a one-dimensional return map, index = 0, 1, 2, ...
 //       static bool branch(int index, const double* parameters, map_branch&);  // and phases that
 //       wrap: see make_entry.hpp
+//       // optional: the contact that is made and broken, for layers: see contact.hpp
+//       static constexpr contact_info contact{...};
 //   };
 //
 // `begin` places a trajectory on (or flies it towards) the section; `step` performs a bounded
@@ -45,6 +47,7 @@
 // a completed return.
 #pragma once
 
+#include "kernels/contract/contact.hpp"
 #include "kernels/contract/info.hpp"
 #include "kernels/contract/watch.hpp"
 #include "kernels/lanes/scalar.hpp"

@@ -99,8 +99,15 @@ private:
 
     HOPSCOTCH_DEVICE void advance(state& at, const std::uint64_t* cells, mask_of<Real> active) {
         unwatched watch;
-        const progress<number> done = Model::template step<Variant>(at.motion, active, watch);
-        settle(at, cells, done, active);
+        settle(at, cells, Model::template step<Variant>(at.motion, active, watch), active);
+    }
+
+    /// One direction costs little beside the map itself: what every step does becomes one stretch
+    /// of code (bench/lyapunov: twice as fast), what few steps do is called.
+    [[gnu::flatten]] HOPSCOTCH_DEVICE void advance(state& at, const std::uint64_t* cells,
+                                                   mask_of<Real> active) requires(n == 1) {
+        unwatched watch;
+        settle(at, cells, Model::template step<Variant>(at.motion, active, watch), active);
     }
 
     HOPSCOTCH_DEVICE void settle(state& at, const std::uint64_t* cells,
@@ -114,8 +121,13 @@ private:
         estimate.until_boundary =
             select(returned, estimate.until_boundary - one, estimate.until_boundary);
         const mask_of<Real> boundary = returned & (estimate.until_boundary == zero);
-        const mask_of<Real> precise = book_growth(at, returned, boundary);
-
+        mask_of<Real> precise = boundary;
+        if constexpr (n == 1) {
+            if (++n_steps_ % steps_in_range == 0) keep_in_range(at);
+            if (any(boundary)) precise = book_growth(at, boundary);
+        } else {
+            if (any(returned)) precise = book_growth(at, returned, boundary);
+        }
         const mask_of<Real> spent = active & (at.steps >= Real(request_.max_steps));
         const mask_of<Real> full =
             active & (at.returns >= Real(static_cast<double>(request_.max_returns)));
@@ -127,37 +139,40 @@ private:
         at.busy = select(finished, zero, at.busy);
     }
 
-    /// Keeps the tangent space in shape and books the blocks that end; gives the lanes whose
-    /// estimate is done.
-    HOPSCOTCH_DEVICE mask_of<Real> book_growth(state& at, const mask_of<Real>& returned,
-                                               const mask_of<Real>& boundary) {
-        exponent_estimate<Real, n>& estimate = at.estimate;
+    [[gnu::noinline]] HOPSCOTCH_DEVICE void keep_in_range(state& at) const requires(n == 1) {
+        space::keep_in_range(at.motion, request_.end_section, at.estimate.doublings[0]);
+    }
+
+    /// Books the blocks that end; gives the lanes whose estimate is done.
+    [[gnu::noinline]] HOPSCOTCH_DEVICE mask_of<Real> book_growth(
+        state& at, const mask_of<Real>& boundary) requires(n == 1) {
         Real sizes[n];
-        if constexpr (n == 1) {
-            if (++n_steps_ % steps_in_range == 0)
-                space::keep_in_range(at.motion, request_.end_section, estimate.doublings[0]);
-            if (!any(boundary)) return boundary;
-            sizes[0] = space::size_of(at.motion, request_.end_section);
-            const mask_of<Real> vanished =
-                boundary & !(estimate.has_begun > Real(0.0)) & (sizes[0] == Real(0.0));
-            if (any(vanished)) {
-                number columns[most_columns];
-                space::read(at.motion, request_.end_section, columns);
-                sow(at, vanished, columns, sizes);
-                renew(at, vanished, columns);
-            }
-        } else {
-            if (!any(returned)) return boundary;
+        sizes[0] = space::size_of(at.motion, request_.end_section);
+        const mask_of<Real> vanished =
+            boundary & !(at.estimate.has_begun > Real(0.0)) & (sizes[0] == Real(0.0));
+        if (any(vanished)) {
             number columns[most_columns];
             space::read(at.motion, request_.end_section, columns);
-            space::orthogonalise(columns, returned, estimate.doublings, sizes);
-            const mask_of<Real> first = boundary & !(estimate.has_begun > Real(0.0));
-            if (any(first)) sow(at, first & has_vanished(sizes), columns, sizes);
-            renew(at, returned, columns);
-            if (!any(boundary)) return boundary;
+            sow(at, vanished, columns, sizes);
+            renew(at, vanished, columns);
         }
-        estimate.book(request_.exponents, boundary, sizes, primal(at.motion.time));
-        return boundary & estimate.is_precise(request_.exponents);
+        at.estimate.book(request_.exponents, boundary, sizes, primal(at.motion.time));
+        return boundary & at.estimate.is_precise(request_.exponents);
+    }
+
+    /// The same for several directions, which are kept apart at every return.
+    [[gnu::noinline]] HOPSCOTCH_DEVICE mask_of<Real> book_growth(
+        state& at, const mask_of<Real>& returned, const mask_of<Real>& boundary) requires(n > 1) {
+        Real sizes[n];
+        number columns[most_columns];
+        space::read(at.motion, request_.end_section, columns);
+        space::orthogonalise(columns, returned, at.estimate.doublings, sizes);
+        const mask_of<Real> first = boundary & !(at.estimate.has_begun > Real(0.0));
+        if (any(first)) sow(at, first & has_vanished(sizes), columns, sizes);
+        renew(at, returned, columns);
+        if (!any(boundary)) return boundary;
+        at.estimate.book(request_.exponents, boundary, sizes, primal(at.motion.time));
+        return boundary & at.estimate.is_precise(request_.exponents);
     }
 
     /// Has a direction of the section been lost on the way (at a critical point, say)?
@@ -190,8 +205,9 @@ private:
         space::take_slopes(at.motion, begun, where, !(primal(done.ended) == Real(0.0)));
     }
 
-    HOPSCOTCH_DEVICE void write(const state& at, const Real& ended, const std::uint64_t* cells,
-                                const Real& flags) const {
+    [[gnu::noinline]] HOPSCOTCH_DEVICE void write(const state& at, const Real& ended,
+                                                  const std::uint64_t* cells,
+                                                  const Real& flags) const {
         const Real nan = not_a_number<Real>();
         const typename lanes::lane_list finished(flags, cells);
         finished.put(request_.outcome, ended);

@@ -45,6 +45,11 @@ struct mirror_line {
         .outcomes = outcomes,
         .trace_columns = state};
 
+    static constexpr contact_info contact{"flight", "impact", "m", "m/s", "ball above the impacts"};
+    static contact_gap gap(const double* columns, const double*, const int*) {
+        return {columns[0], columns[1]};
+    }
+
     /// Variant 0 leaves out the times.
     static constexpr int n_variants = 2;
     static int variant(const variant_query& scene) { return scene.wants_time ? 1 : 0; }

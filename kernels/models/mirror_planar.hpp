@@ -76,6 +76,16 @@ struct mirror_planar {
         .outcomes = outcomes,
         .trace_columns = trace_columns};
 
+    static constexpr contact_info contact{"flight", "impact", "m", "m/s", "ball above the bar"};
+    /// An impulse along the bar's normal changes the velocity by (1 + restitution) times the speed
+    /// of the impact.
+    static double impact_speed(const double* before, const double* after,
+                               const double* parameters) {
+        const double x = after[2] - before[2];
+        const double z = after[3] - before[3];
+        return sqrt(x * x + z * z) / (1.0 + parameters[restitution]);
+    }
+
     /// One per law.
     static constexpr int n_variants = 3;
     static int variant(const variant_query& scene) { return scene.options[0]; }

@@ -32,7 +32,7 @@ struct mirror_spatial {
          -100.0,
          {-unbounded, 0.0, false, false},
          "the ball is lost below"}};
-    enum parameter_index { shoulder_radius = 11, bar_length = 12 };
+    enum parameter_index { restitution = 0, shoulder_radius = 11, bar_length = 12 };
 
     static constexpr column_info apex_columns[] = {
         {"bx", "m", any_finite, "ball, from the shoulder"},
@@ -68,6 +68,17 @@ struct mirror_spatial {
         .extras = extras,
         .outcomes = outcomes,
         .trace_columns = trace_columns};
+
+    static constexpr contact_info contact{"flight", "impact", "m", "m/s", "ball above the bar"};
+    /// An impulse along the bar's normal changes the velocity by (1 + restitution) times the speed
+    /// of the impact.
+    static double impact_speed(const double* before, const double* after,
+                               const double* parameters) {
+        const double x = after[3] - before[3];
+        const double y = after[4] - before[4];
+        const double z = after[5] - before[5];
+        return sqrt(x * x + y * y + z * z) / (1.0 + parameters[restitution]);
+    }
 
     /// One per law.
     static constexpr int n_variants = 3;

@@ -60,6 +60,11 @@ struct openloop_hopper {
         .outcomes = outcomes,
         .trace_columns = trace_columns};
 
+    static constexpr contact_info contact{"air", "landing", "s^2", "s", "foot above the ground"};
+    static contact_gap gap(const double* columns, const double*, const int*) {
+        return {columns[0], columns[1]};
+    }
+
     /// 0, 1: length guard, damping ratio below 1 everywhere or anywhere; 2, 3: force guard.
     static constexpr int n_variants = 4;
     static int variant(const variant_query& scene) {

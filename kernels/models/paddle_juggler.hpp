@@ -52,6 +52,11 @@ struct paddle_juggler {
                                      .outcomes = outcomes,
                                      .trace_columns = state};
 
+    static constexpr contact_info contact{"flight", "impact", "1", "1", "ball above the paddle"};
+    static contact_gap gap(const double* columns, const double*, const int*) {
+        return {columns[0] - columns[2], columns[1] - columns[3]};
+    }
+
     static constexpr int n_variants = 1;
     static int variant(const variant_query&) { return 0; }
     static constexpr std::string_view refusal(const double*, const int*) { return {}; }

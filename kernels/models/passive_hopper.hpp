@@ -49,6 +49,11 @@ struct passive_hopper : passive::model<hopper_coordinates> {
         .extras = passive::extras,
         .outcomes = passive::outcomes,
         .trace_columns = state};
+
+    static constexpr contact_info contact{"flight", "impact", "1", "1", "foot above the ground"};
+    static contact_gap gap(const double* columns, const double*, const int*) {
+        return {columns[2], columns[3]};
+    }
 };
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

@@ -44,6 +44,11 @@ struct passive_juggler : passive::model<juggler_coordinates> {
         .extras = passive::extras,
         .outcomes = passive::outcomes,
         .trace_columns = state};
+
+    static constexpr contact_info contact{"flight", "impact", "1", "1", "ball above the hand"};
+    static contact_gap gap(const double* columns, const double*, const int*) {
+        return {columns[0] - columns[2], columns[1] - columns[3]};
+    }
 };
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET

@@ -75,6 +75,11 @@ struct raibert_linear {
         .outcomes = outcomes,
         .trace_columns = state};
 
+    static constexpr contact_info contact{"flight", "touchdown", "m", "m/s", "foot above the ground"};
+    static contact_gap gap(const double* columns, const double* parameters, const int*) {
+        return {columns[0] - parameters[liftoff_height], columns[1]};
+    }
+
     /// 0: every stance underdamped; 1: any damping; 2: any damping, spring preloaded by the thrust.
     static constexpr int n_variants = 3;
     static int variant(const variant_query& scene) {

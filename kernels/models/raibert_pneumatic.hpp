@@ -64,6 +64,11 @@ struct raibert_pneumatic {
         .outcomes = outcomes,
         .trace_columns = trace_columns};
 
+    static constexpr contact_info contact{"flight", "touchdown", "m", "m/s", "foot above the ground"};
+    static contact_gap gap(const double* columns, const double* parameters, const int*) {
+        return {columns[0] - parameters[liftoff_height], columns[1]};
+    }
+
     // 0: friction, integrated; 1: none, exact; 2: none, without times
     static constexpr int n_variants = 3;
     static int variant(const variant_query& scene) {

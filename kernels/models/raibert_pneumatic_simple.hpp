@@ -73,6 +73,12 @@ struct raibert_pneumatic_simple {
         .outcomes = outcomes,
         .trace_columns = state};
 
+    static constexpr contact_info contact{"flight", "touchdown", "m", "m/s",
+                                          "foot above the ground"};
+    static contact_gap gap(const double* columns, const double* parameters, const int*) {
+        return {columns[0] - parameters[liftoff_height], columns[1]};
+    }
+
     /// Variant 0 leaves out the times.
     static constexpr int n_variants = 2;
     static int variant(const variant_query& scene) { return scene.wants_time ? 1 : 0; }

@@ -45,6 +45,11 @@ struct relief_valve {
         .outcomes = outcomes,
         .trace_columns = trace_columns};
 
+    static constexpr contact_info contact{"open", "impact", "1", "1", "disc above its seat"};
+    static contact_gap gap(const double* columns, const double*, const int*) {
+        return {columns[0], columns[1]};
+    }
+
     static constexpr int n_variants = 1;
     static int variant(const variant_query&) { return 0; }
     static constexpr std::string_view refusal(const double*, const int*) { return {}; }

@@ -65,6 +65,13 @@ struct slip {
         .outcomes = outcomes,
         .trace_columns = trace_columns};
 
+    static constexpr contact_info contact{"flight", "touchdown", "m", "m/s",
+                                          "foot of the leg as it will land, above the ground"};
+    static contact_gap gap(const double* columns, const double* parameters, const int*) {
+        const double landing = parameters[leg_length] * sin(parameters[touchdown_angle]);
+        return {columns[1] - landing, columns[3]};
+    }
+
     static constexpr int n_variants = 4;
     static int variant(const variant_query& scene) {
         return scene.options[0] + 2 * scene.options[1];

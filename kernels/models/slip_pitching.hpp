@@ -74,6 +74,20 @@ struct slip_pitching {
         .outcomes = outcomes,
         .trace_columns = trace_columns};
 
+    static constexpr contact_info contact{"flight", "touchdown", "m", "m/s",
+                                          "foot of the leg as it will land, above the ground"};
+    static contact_gap gap(const double* columns, const double* parameters, const int* options) {
+        const double turns = options[1] == 1 ? 1.0 : 0.0;  // with the body, or stays
+        const double pitch = columns[4];
+        const double rate = columns[5];
+        const auto body = sin_cos(pitch);
+        const auto leg = sin_cos(parameters[touchdown_angle] - turns * pitch);
+        const double length = parameters[leg_length];
+        const double hip = parameters[hip_offset];
+        return {columns[1] + hip * body.cos - length * leg.sin,
+                columns[3] + rate * (turns * length * leg.cos - hip * body.sin)};
+    }
+
     // The placement of the leg is three numbers in the lane and costs nothing, so it is no variant.
     static constexpr int n_variants = 2;
     static int variant(const variant_query& scene) { return scene.options[0]; }

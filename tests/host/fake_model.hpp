@@ -153,7 +153,8 @@ inline orbit_answer trace(const orbit_row& row, orbit_observer& observer) {
     observer.phase("ground", 0.25, unbounded, still{});
     return run_double(row);
 }
-inline constexpr orbit_functions orbits{run_double, run_dd, run_mp50, trace, nullptr, nullptr, nullptr};
+inline constexpr orbit_functions orbits{run_double, run_dd, run_mp50, trace, nullptr, nullptr, nullptr,
+                                              nullptr};
 inline constexpr const orbit_functions* orbit_table = &orbits;
 
 inline constexpr ensemble_function kernels[2]{run, run};

@@ -187,7 +187,7 @@ TEST(scene_errors, a_mistake_in_question_accuracy_or_output_is_named) {
          "fake_bouncer); \"label\", one of label, period, outcome, uncertain, returns, events, "
          "time, "
          "last_height, "
-         "speed, bounces?"},
+         "speed, bounces, failing_distance?"},
         {"tile", "[question]\nkind = \"basins\"\n[output]\ntile = [4, 4]\n",
          "s.toml:13: output.tile = [4, 4] (the grid has 1 axes); one number per axis, as 8?"},
         {"compression", "[question]\nkind = \"basins\"\n[output]\ncompression = 10\n",
