@@ -27,6 +27,11 @@ done
 small_map -o tiles.h5 --threads 1 output.tile='[7, 90]' >out.txt 2>&1
 claim_equal "one thread and other tiles give the same map" "$hash" "$(hash_of tiles.json)"
 
+small_map -o flags.h5 output.layers='["label", "uncertain"]' >out.txt 2>&1
+flags=$(hash_of flags.json)
+small_map -o flags_scalar.h5 --backend scalar output.tile='[7, 90]' output.layers='["label", "uncertain"]' >out.txt 2>&1
+claim_equal "uncertain cells do not depend on backend and tiles" "$flags" "$(hash_of flags_scalar.json)"
+
 claim_exit "sums are verified and cells recomputed" 0 hopscotch verify map.h5 --cells 10
 claim_contains "and they hold" "wrong             0" out.txt
 claim_contains "with the errors of their numbers" "error of returns" out.txt
