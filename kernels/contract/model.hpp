@@ -40,7 +40,7 @@
 //   };
 //
 // `begin` places a trajectory on (or flies it towards) the section; `step` performs a bounded
-// amount of work: at most one event or one integrator step. Both say lane by lane whether a return
+// amount of work: a few events or one integrator step. Both say lane by lane whether a return
 // was completed and whether the orbit ended. `step` is called with lanes that are idle or ended too
 // (active = false): it may compute nonsense there but must come to an end. `read_state` gives the
 // last section state reached. `certificate` gives a label > 0 once the orbit's fate is proved after

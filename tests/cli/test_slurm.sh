@@ -55,6 +55,7 @@ interrupted() {  # NAME SBATCH_ARGUMENTS...: a job that gets USR1 once it has ti
     before=$(n_tiles_in "$name.h5.tiles")
     [ "$before" -gt 3 ] || fail "$name: finished tiles are kept" "only $before tiles"
     [ "$before" -lt 3600 ] || fail "$name: the job is interrupted in the middle" "all tiles are there"
+    sleep 2  # slurmd refuses credentials of the second in which it revoked the last one
     for _ in $(seq 100); do  # Slurm waits for its credentials to expire; a test does not
         scontrol update JobId="$job" StartTime=now 2>/dev/null && break
         sleep 0.1
@@ -75,5 +76,6 @@ for _ in $(seq 300); do
     sleep 0.1
 done
 claim_contains "a job without time left stops in time" "queued again" "slurm-$job.out"
+[ $failed = 0 ] || { squeue -t all && tail -n 12 "$cluster/slurmctld.log" "slurm-$job.out"; }
 scancel "$job"
 exit $failed
