@@ -8,6 +8,7 @@
 #include "host/run/run_map.hpp"
 #include "host/run/attributes.hpp"
 #include "host/run/backends.hpp"
+#include "host/run/kernel_in_use.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/tiles.hpp"
 #include "host/scene/grid.hpp"
@@ -94,7 +95,7 @@ double since(std::chrono::steady_clock::time_point begin) {
 
 /// The map of `run`, one step after the other on this thread.
 void take_apart(const scene& scene, std::string_view backend_name) {
-    const kernel_choice kernel = choose_kernel(*scene.model, variant_of(scene), backend_name);
+    kernel_in_use kernel(choose_kernel(*scene.model, variant_of(scene), backend_name));
     const map_layout layout = layout_of(scene);
     const std::vector<layer_plan> layers = chosen_layers(scene);
     std::vector<double> seconds[4];
@@ -107,7 +108,7 @@ void take_apart(const scene& scene, std::string_view backend_name) {
         const tile_job job{scene, plan, layout, layers, kernel};
         map_run run(layout, {.map = scratch.path() / "map.h5",
                              .fingerprint = scene.fingerprint,
-                             .attributes = attributes_of(scene, kernel)});
+                             .attributes = attributes_of(scene, kernel.first())});
         double parts[3] = {};
         for (std::uint64_t tile = 0; tile < layout.n_tiles(); ++tile) {
             begin = std::chrono::steady_clock::now();
