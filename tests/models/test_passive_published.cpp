@@ -103,6 +103,15 @@ TEST(passive_published, juggler_example_has_the_heights_of_equation_14) {
     EXPECT_NEAR(depth, 8.94213, printed(5));
     EXPECT_NEAR(to_double(height) + depth, 19.0375, printed(4));                           // A1
     EXPECT_NEAR(to_double(sqrt(alpha * alpha + 1.0)) - 1.0 + depth, 12.5455, printed(4));  // A2
+    EXPECT_NEAR((to_double(height) + depth) / (to_double(sqrt(alpha * alpha + 1.0)) - 1.0 + depth),
+                1.51748, printed(5));
+    // the air track of Fig. 9, propped up by 1.1 inch over 5 feet: m2 = 0.2657 kg, k = 8.8 N/m
+    const double slope = std::atan(1.1 / 60.0);
+    EXPECT_NEAR(slope, 1.8331e-2, printed(6));
+    const double unit = 0.2657 * 9.81 * std::sin(slope) / 8.8;
+    EXPECT_NEAR(unit, 5.429e-3, printed(6));
+    EXPECT_NEAR(0.2657 * 9.80 * std::sin(slope) / 8.8, 5.424e-3, printed(6));
+    EXPECT_NEAR(unit * (to_double(height) + depth), 0.1034, printed(4));  // Delta u1
     // the model: the juggler that starts at that lowest point leaves at alpha
     const double low = to_double(y_low) - 1.0;
     const auto thrown = run({.model = "passive_juggler",

@@ -355,8 +355,6 @@ TEST(slip_folds, heavy_gravity_is_resolved) {
     EXPECT_GT(ok, 20);
 }
 
-// ------------------------------------------------------------- invariants
-
 /// Lift-off and stance states of one stride, in leg lengths and touchdown speeds.
 struct stance_watch final : orbit_observer {
     double spring_energy = 0.0;  // least and largest energy over the stance's samples
@@ -383,6 +381,65 @@ struct stance_watch final : orbit_observer {
     void event(const char*, double, const char*, const char*, const double*, const double*,
                double) override {}
 };
+
+TEST(slip_folds, map_is_a_rounded_v_just_below_its_gap) {
+    // page, case 4: P ~ sqrt(Dmin + a (delta - delta*)^2), so second differences of P^2 about its
+    // least are those of a parabola: four times as large for twice the distance
+    const double edge = 1.715498;
+    for (const double below : {1e-4, 1e-5}) {
+        const named_map m = figure_12(edge * (1.0 - below));
+        const auto squared = [&](double angle) {
+            const double next = m.with("angle", angle).image().to[0];
+            return next * next;
+        };
+        double low = 0.35, high = 0.38;
+        for (int i = 0; i < 100; ++i) {  // golden section on the least of P^2
+            const double span = 0.381966 * (high - low);
+            (squared(low + span) < squared(high - span) ? high : low) +=
+                squared(low + span) < squared(high - span) ? -span : span;
+        }
+        const double least = 0.5 * (low + high);
+        EXPECT_NEAR(least, 0.363590, 2e-4);  // delta_GP of case 3
+        const auto rise = [&](double h) {
+            return squared(least + h) + squared(least - h) - 2 * squared(least);
+        };
+        EXPECT_GT(rise(1e-3), 0.0);
+        EXPECT_NEAR(rise(2e-3) / rise(1e-3), 4.0, 0.02) << below;
+        // the nearer the gap, the sharper the V: P there is the root of what is left of D
+        EXPECT_NEAR(squared(least) / below, 8.95e-7 / 1e-6, 0.01) << below;
+    }
+}
+
+TEST(slip_folds, leaving_the_ground_downward_above_touchdown_height_is_legal) {
+    // page, case 11: heavy gravity, lift-off with w < 0 and y above sin(beta); inputs from a scan
+    struct start {
+        double beta, stiffness, gravity, angle;
+    };
+    for (const start& from : {start{1.01, 15.7, 4.06, -0.103},
+                              {0.71, 9.95, 1.736, -0.441},
+                              {1.18, 40.9, 3.31, -0.075}}) {
+        const named_map m =
+            by_numbers(from.beta, from.stiffness, from.gravity, from.angle, linear_on);
+        stance_watch seen;
+        m.trace(seen);
+        EXPECT_LT(seen.last[3], 0.0) << from.beta;
+        EXPECT_GT(seen.last[1], std::sin(from.beta)) << from.beta;
+        const orbit_answer answer = m.answer();
+        ASSERT_EQ(answer.end, outcome::ok) << from.beta;
+        // D = w^2 + 2 gt (y - sin beta): the fall to the next touchdown
+        const double fall =
+            seen.last[3] * seen.last[3] + 2 * from.gravity * (seen.last[1] - std::sin(from.beta));
+        EXPECT_NEAR(std::sin(std::stod(answer.columns[1])), std::sqrt(fall), 1e-12) << from.beta;
+    }
+}
+
+TEST(slip_folds, chaos_of_figure_12_parts_orbits_e_fold_every_4_to_11_strides) {
+    // page, case 10; at the band's lower end and next to the gap, block errors are some 2 %
+    EXPECT_NEAR(1.0 / exponent(figure_12(1.7127), 20000), 11.0, 2.0);
+    EXPECT_NEAR(1.0 / exponent(figure_12(1.7154), 20000), 4.0, 1.0);
+}
+
+// ------------------------------------------------------------- invariants
 
 TEST(slip_folds, stances_conserve_energy_and_the_next_touchdowns_speed) {
     for (const choices& options : {linear_off, air_off, linear_on, air_on}) {
@@ -432,8 +489,23 @@ TEST(slip_folds, neglecting_gravity_in_stance_is_the_limit_of_little_gravity) {
 }
 
 TEST(slip_folds, only_three_numbers_matter) {
-    // gamma = k eta0 / (m g) = kt / gt: 305.8 for Fig. 4(a)
-    EXPECT_NEAR(2000.0 * 1.5 / 9.81, 305.8, 0.06);
+    // gamma = k eta0 / (m g) = kt / gt of Figs. 2 and 4, to the digits printed; the same stride by
+    // k, g and the speed, and by the groups
+    const std::pair<double, double> rows[] = {{654.0, 100.0},  {163.5, 25.0},   {65.4, 10.0},
+                                              {2000.0, 305.8}, {1000.0, 152.9}, {250.0, 38.2},
+                                              {100.0, 15.3}};
+    for (const auto& [stiffness, gamma] : rows) {
+        EXPECT_NEAR(stiffness * 1.5 / 9.81, gamma, 0.051) << stiffness;
+        const double gravity = 0.02;
+        const double speed = std::sqrt(9.81 * 1.5 / gravity);
+        const named_map by_hand = runner(1.5, stiffness, 1.0, speed, 0.1, linear_on);
+        const named_map groups =
+            by_numbers(1.0, stiffness * 1.5 / 9.81 * gravity, gravity, 0.1, linear_on);
+        ASSERT_EQ(by_hand.image().end, groups.image().end) << stiffness;
+        EXPECT_NEAR(std::stod(by_hand.answer().extras[0]), std::stod(groups.answer().extras[0]),
+                    2e-14)
+            << stiffness;
+    }
     for (const choices& options : {linear_off, air_off, linear_on, air_on}) {
         const bool is_air = !options.empty() && options[0].second == "air";
         const double stiffness = is_air ? 0.8 : 8.0;
