@@ -1,5 +1,0 @@
-#!/usr/bin/env bash
-# Scenes of published figures answer with the printed numbers: their branches.
-source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
-/usr/bin/python3 "$source_folder/tests/cli/figures.py" "$program" "$source_folder" branches
-exit

@@ -1,0 +1,5 @@
+#!/usr/bin/env bash
+# Scenes of the relief valve answer with printed numbers and closed forms.
+source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
+/usr/bin/python3 -B "$source_folder/tests/cli/figures/valve.py" "$program" "$source_folder"
+exit
