@@ -2,9 +2,9 @@
 #include "host/run/audit.hpp"
 
 #include "host/map/numbers.hpp"
+#include "host/refine/refinement.hpp"
 #include "host/run/confidence.hpp"
 #include "host/run/estimate.hpp"
-#include "host/run/refinement.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/truth_orbits.hpp"
@@ -74,7 +74,7 @@ std::vector<stored_cell> stored_cells(const scene& scene, std::span<const layer_
                 return number_at(layout.layers[layer].type, data.layers[layer].data(), at);
             };
             values[i].verdict = static_cast<int>(value(judged_layer(scene)));
-            values[i].is_inherited = scene.refine > 0 && value("level") == inherited_level;
+            values[i].is_inherited = scene.refine > 0 && value("level") == refine::inherited_level;
             for (const layer_plan& layer : numeric) {
                 values[i].numbers.push_back(value(layer.description.name));
             }

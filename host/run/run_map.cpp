@@ -1,12 +1,12 @@
 // The run of a map.
 #include "host/run/run_map.hpp"
 
+#include "host/refine/refinement.hpp"
 #include "host/run/attributes.hpp"
-#include "host/run/open_cells.hpp"
 #include "host/run/device_error.hpp"
+#include "host/run/open_cells.hpp"
 #include "host/run/orbit_diagram.hpp"
 #include "host/run/plan_digest.hpp"
-#include "host/run/refinement.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/tile_pipeline.hpp"
@@ -61,7 +61,7 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
     report.hash = run.hash();
     attribute_list attributes = report.audit;
     if (scene.refine > 0) {
-        report.n_inherited = run.counts("level")[inherited_level];
+        report.n_inherited = run.counts("level")[refine::inherited_level];
         const attribute_list refined = refinement_attributes(scene, report);
         attributes.insert(attributes.end(), refined.begin(), refined.end());
     }
@@ -209,14 +209,14 @@ private:
 
     /// Cells that the first pass computes in a tile.
     std::uint64_t n_cells_of(std::uint64_t tile) const {
-        return coarse_cells_in(box_of(layout_, tile), scene_.refine);
+        return refine::coarse_cells_in(box_of(layout_, tile), scene_.refine);
     }
 
     /// Computes tiles together; true where all of them are done.
     bool compute(const std::vector<std::uint64_t>& tiles) {
         const tile_job work = job();
         return compute(tiles, [&](const tile_box& box) -> std::optional<tile_result> {
-            return scene_.refine > 0 ? compute_coarse(work, box) : compute_tile(work, box);
+            return scene_.refine > 0 ? refine::compute_coarse(work, box) : compute_tile(work, box);
         });
     }
 
@@ -228,7 +228,7 @@ private:
             if (ranks_.is_first()) run_->keep(kept_refining, "1");
         });
         const tile_job work = job();
-        refinement rounds(work, *run_);
+        refine::refinement rounds(work, *run_);
         std::vector<std::uint64_t> tiles(layout_.n_tiles());
         std::iota(tiles.begin(), tiles.end(), std::uint64_t{0});
         for (int round = 1; !tiles.empty(); round += round <= scene_.refine ? 1 : 0) {
@@ -251,7 +251,7 @@ private:
             if (round <= scene_.refine) continue;
             // the last round is gone through until nothing changes
             if (n_changed == 0.0) return true;
-            if (ranks_.size() == 1) tiles = with_neighbours(layout_, changed);
+            if (ranks_.size() == 1) tiles = refine::with_neighbours(layout_, changed);
         }
         return true;
     }
@@ -261,7 +261,7 @@ private:
         std::uint64_t n_wanted = 0;
         for (const std::uint64_t tile : tiles) n_wanted += n_cells_of(tile);
         const tile_box whole{0, std::vector<std::uint64_t>(layout_.axes.size(), 0), shape()};
-        const std::uint64_t n_all = coarse_cells_in(whole, scene_.refine);
+        const std::uint64_t n_all = refine::coarse_cells_in(whole, scene_.refine);
         const bool is_round = n_passes_++ > 0 && scene_.refine > 0;  // nobody knows how many
         progress_line line(n_all, n_all - std::min(n_wanted, n_all),
                            choices_.is_quiet || is_round || !ranks_.is_first());

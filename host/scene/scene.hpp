@@ -97,7 +97,7 @@ struct scene {
     std::vector<int> options;        // index of the choice, one per option
     int section = 0;
     std::vector<scene_axis> axes;  // the first one is the slowest in memory
-    int refine = 0;                // levels of boundary refinement, see host/run/refinement.hpp
+    int refine = 0;                // levels of boundary refinement, see host/refine/refinement.hpp
     std::vector<double> start;     // one per column of the section; NaN where the column is an axis
 
     scene_sweep sweep;

@@ -1,6 +1,6 @@
 // Boundary refinement: cells that are computed are those of a full run bit for bit, whatever tiles,
 // threads and interruptions; what is not computed says so; what a coarse grid cannot see is known.
-#include "host/run/refinement.hpp"
+#include "host/refine/refinement.hpp"
 #include "host/run/run_map.hpp"
 #include "host/store/map_reader.hpp"
 #include "tests/host/fake_model.hpp"
@@ -99,8 +99,8 @@ TEST_F(refined_run, has_the_full_runs_bits_in_every_computed_cell) {
         const std::vector<double> part = layer("part.h5", name);
         n_inherited = 0;
         for (std::size_t cell = 0; cell < level.size(); ++cell) {
-            if (level[cell] == inherited_level) ++n_inherited;
-            if (level[cell] == inherited_level) continue;
+            if (level[cell] == refine::inherited_level) ++n_inherited;
+            if (level[cell] == refine::inherited_level) continue;
             ASSERT_LE(level[cell], 4.0);  // 0 to 3, and those along boundaries
             ASSERT_TRUE(is_same(full[cell], part[cell])) << name << " " << cell;
         }
@@ -127,8 +127,8 @@ TEST_F(refined_run, every_cell_that_differs_from_a_neighbour_was_computed) {
         for (std::size_t j = 0; j + 1 < 120; ++j) {
             const std::size_t cell = i * 120 + j;
             if (label[cell] == label[cell + 1] && outcome[cell] == outcome[cell + 1]) continue;
-            EXPECT_NE(level[cell], inherited_level) << i << " " << j;
-            EXPECT_NE(level[cell + 1], inherited_level) << i << " " << j;
+            EXPECT_NE(level[cell], refine::inherited_level) << i << " " << j;
+            EXPECT_NE(level[cell + 1], refine::inherited_level) << i << " " << j;
         }
     }
 }
@@ -139,7 +139,7 @@ TEST_F(refined_run, numbers_of_inherited_cells_are_not_computed) {
     const std::vector<double> returns = layer("part.h5", "returns");
     const std::vector<double> time = layer("part.h5", "time");
     for (std::size_t cell = 0; cell < level.size(); ++cell) {
-        const bool is_inherited = level[cell] == inherited_level;
+        const bool is_inherited = level[cell] == refine::inherited_level;
         EXPECT_EQ(returns[cell] == 4294967295.0, is_inherited) << cell;
         EXPECT_TRUE(!is_inherited || std::isnan(time[cell])) << cell;
     }
@@ -224,7 +224,7 @@ returns = 5
     EXPECT_EQ(n_ones("grid.refine=4"), 0);  // but not of 16
     const std::vector<double> level = layer("grid.refine=4.h5", "level");
     EXPECT_EQ(std::count(level.begin(), level.end(), 0.0), 10);
-    EXPECT_EQ(std::count(level.begin(), level.end(), inherited_level), 150);
+    EXPECT_EQ(std::count(level.begin(), level.end(), refine::inherited_level), 150);
 }
 
 TEST(refinement, looks_at_a_tile_and_its_neighbours) {
@@ -233,10 +233,10 @@ TEST(refinement, looks_at_a_tile_and_its_neighbours) {
     layout.axes[0].values.resize(50);
     layout.axes[1].values.resize(40);
     layout.tile = {10, 10};  // 5 x 4 tiles
-    EXPECT_EQ(with_neighbours(layout, {0}), (std::vector<std::uint64_t>{0, 1, 4, 5}));
-    EXPECT_EQ(with_neighbours(layout, {9}),
+    EXPECT_EQ(refine::with_neighbours(layout, {0}), (std::vector<std::uint64_t>{0, 1, 4, 5}));
+    EXPECT_EQ(refine::with_neighbours(layout, {9}),
               (std::vector<std::uint64_t>{4, 5, 6, 8, 9, 10, 12, 13, 14}));
-    EXPECT_EQ(coarse_cells_in(box_of(layout, 0), 3), 4u);
+    EXPECT_EQ(refine::coarse_cells_in(box_of(layout, 0), 3), 4u);
 }
 
 TEST(refinement, needs_classes_and_tiles_of_whole_blocks) {

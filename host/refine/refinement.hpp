@@ -17,18 +17,16 @@
 // in; their numbers (other layers) are "not computed".
 #pragma once
 
+#include "host/refine/class_cache.hpp"
 #include "host/run/tiles.hpp"
 #include "host/store/map_run.hpp"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
-namespace hopscotch {
+namespace hopscotch::refine {
 
-/// Values of the layer `level` of cells that were not computed themselves.
-inline constexpr int inherited_level = 254;
 /// Cells that round 0 computes in a box that begins at a multiple of 2^levels.
 std::uint64_t coarse_cells_in(const tile_box& box, int levels);
 
@@ -40,10 +38,7 @@ tile_result compute_coarse(const tile_job& job, const tile_box& box);
 class refinement {
 public:
     /// \param job, run  borrowed
-    refinement(const tile_job& job, const map_run& run);
-    ~refinement();
-    refinement(const refinement&) = delete;
-    refinement& operator=(const refinement&) = delete;
+    refinement(const tile_job& job, const map_run& run) : job_(job), run_(run), known_(job, run) {}
 
     /// Cells of a tile that round 1 to L + 1 lacks; nothing where none is missing. The last round
     /// goes over the tiles again until nothing is. Thread safe.
@@ -52,18 +47,19 @@ public:
 
     /// A pass has written these tiles: what was read of them meanwhile may be out of date. To be
     /// called before the last round goes over the tiles again.
-    void forget(const std::vector<std::uint64_t>& tiles);
+    void forget(const std::vector<std::uint64_t>& tiles) { known_.forget(tiles); }
 
     /// Other ranks have written tiles.
-    void forget_all();
+    void forget_all() { known_.forget_all(); }
 
 private:
-    struct implementation;
-    std::unique_ptr<implementation> self_;
+    const tile_job& job_;
+    const map_run& run_;
+    class_cache known_;
 };
 
 /// These tiles and their neighbours, diagonal ones included; rising.
 std::vector<std::uint64_t> with_neighbours(const map_layout& layout,
                                            const std::vector<std::uint64_t>& tiles);
 
-}  // namespace hopscotch
+}  // namespace hopscotch::refine
