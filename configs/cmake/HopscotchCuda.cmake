@@ -4,17 +4,12 @@
 find_program(HOPSCOTCH_NVCC nvcc HINTS ENV CUDA_PATH ENV CUDA_HOME PATHS /usr/local/cuda/bin)
 find_library(HOPSCOTCH_CUDA_DRIVER NAMES cuda libcuda.so.1 NO_CMAKE_FIND_ROOT_PATH)
 
-set(HOPSCOTCH_HAS_CUDA OFF)
-if(HOPSCOTCH_WITH_CUDA STREQUAL "AUTO")
-    if(HOPSCOTCH_NVCC AND (HOPSCOTCH_CUDA_DRIVER OR EXISTS /dev/nvidiactl))
-        set(HOPSCOTCH_HAS_CUDA ON)
-    endif()
-elseif(HOPSCOTCH_WITH_CUDA)
-    if(NOT HOPSCOTCH_NVCC)
-        message(FATAL_ERROR "HOPSCOTCH_WITH_CUDA = ${HOPSCOTCH_WITH_CUDA} (there is no nvcc); AUTO?")
-    endif()
-    set(HOPSCOTCH_HAS_CUDA ON)
+include(${CMAKE_CURRENT_LIST_DIR}/HopscotchCudaChoice.cmake)
+set(driver "${HOPSCOTCH_CUDA_DRIVER}")
+if(NOT driver AND EXISTS /dev/nvidiactl)
+    set(driver /dev/nvidiactl)
 endif()
+hopscotch_choose_cuda(HOPSCOTCH_HAS_CUDA "${HOPSCOTCH_WITH_CUDA}" "${HOPSCOTCH_NVCC}" "${driver}")
 
 # Bit identity: no contraction; fma is written where it is meant. HOPSCOTCH_CUDA_FAST gives it up.
 set(HOPSCOTCH_CUDA_FLAGS --expt-relaxed-constexpr -prec-div=true -prec-sqrt=true -diag-suppress=1675)

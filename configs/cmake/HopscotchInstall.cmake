@@ -14,6 +14,7 @@ install(DIRECTORY analysis/python/hopscotch DESTINATION ${CMAKE_INSTALL_DATADIR}
 set(HOPSCOTCH_PACKAGE ${CMAKE_INSTALL_LIBDIR}/cmake/hopscotch)
 install(DIRECTORY kernels/ensemble/units DESTINATION ${HOPSCOTCH_PACKAGE})
 install(FILES configs/cmake/HopscotchModels.cmake configs/cmake/HopscotchTargets.cmake configs/cmake/HopscotchCuda.cmake
+    configs/cmake/HopscotchCudaChoice.cmake
     DESTINATION ${HOPSCOTCH_PACKAGE})
 install(EXPORT hopscotch_targets NAMESPACE hopscotch:: DESTINATION ${HOPSCOTCH_PACKAGE})
 configure_package_config_file(configs/cmake/hopscotch-config.cmake.in

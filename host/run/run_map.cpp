@@ -98,7 +98,7 @@ public:
           hooks_(hooks),
           ranks_(ranks),
           stop_(choices.walltime),
-          kernel_(map_kernel_of(scene, choices.backend)),
+          kernel_(hooks.kernel ? hooks.kernel(scene) : map_kernel_of(scene, choices.backend)),
           layout_(layout_of(scene)),
           layers_(chosen_layers(scene)),
           n_threads_(choices.n_threads > 0 ? choices.n_threads : ranks.default_threads()),

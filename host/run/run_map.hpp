@@ -3,6 +3,7 @@
 // and by tests.
 #pragma once
 
+#include "host/run/kernel_in_use.hpp"
 #include "host/run/label_plan.hpp"
 #include "host/run/progress.hpp"
 #include "host/run/trap_gain.hpp"
@@ -30,12 +31,14 @@ struct run_choices {
     std::vector<std::filesystem::path> adopted{};  // run directories whose tiles are taken over
 };
 
-/// The analysis' part in a run. Any may be empty: then cells have no labels, no audit is made, and layers of
-/// the whole map are left "not computed".
+/// The analysis' part in a run. Any may be empty: then cells have no labels, no audit is made, and
+/// layers of the whole map are left "not computed".
 struct run_hooks {
     /// The plan of a scene's labels; cells that a first pass has left open are searched once more.
     std::function<label_plan(const scene&, std::span<const std::uint64_t> searched)> plan;
     std::function<attribute_list(const scene&, const label_plan&, const map_run&)> audit;
+    /// The kernel that computes the cells, instead of the one that `run_choices::backend` names.
+    std::function<kernel_in_use(const scene&)> kernel;
     /// Fills layers that follow from the whole map, once all its tiles are there.
     std::function<void(const scene&, map_run&)> finish_layers;
 };

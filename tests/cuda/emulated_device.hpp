@@ -8,6 +8,11 @@
 
 namespace hopscotch::emulation {
 
+class fake_runtime;
+
+/// The runtime of the two emulated devices, for tests that make it fail.
+fake_runtime& emulated_runtime();
+
 /// As run_on_devices, on two emulated devices.
 lane_statistics run_on_emulated_device(const device_kernel& kernel,
                                        const ensemble_request& request);

@@ -31,6 +31,13 @@ public:
     int calls_until_failure = 0;  // of that name; the device stays lost afterwards
     int lost_device = -1;         // only that one fails; -1: any
 
+    /// All devices are there again, and no call fails.
+    void repair() {
+        const std::lock_guard lock(mutex_);
+        is_lost_ = false;
+        failing_call.clear();
+    }
+
     /// What has been done, for the tests to look at.
     struct record {
         int n_launches = 0;

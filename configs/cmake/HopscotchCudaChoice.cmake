@@ -1,0 +1,15 @@
+# Whether kernels are compiled for GPUs, from the option (AUTO, ON, OFF), nvcc and the driver as they were
+# found: each a path, empty or NOTFOUND.
+function(hopscotch_choose_cuda result option nvcc driver)
+    set(${result} OFF PARENT_SCOPE)
+    if(option STREQUAL "AUTO")
+        if(nvcc AND driver)
+            set(${result} ON PARENT_SCOPE)
+        endif()
+    elseif(option)
+        if(NOT nvcc)
+            message(FATAL_ERROR "HOPSCOTCH_WITH_CUDA = ${option} (there is no nvcc); AUTO?")
+        endif()
+        set(${result} ON PARENT_SCOPE)
+    endif()
+endfunction()
