@@ -9,11 +9,15 @@ if [ ! -x "$program" ]; then
     exit 2
 fi
 
+# This job; a task of an array by its own name, because the number of the last one stands for all of them.
+job=$SLURM_JOB_ID
+[ -z "${SLURM_ARRAY_JOB_ID:-}" ] || job=${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID
+
 # --walltime SECONDS: what Slurm says is left of this job, less the seconds that finishing a tile and
 # packing the map may take (HOPSCOTCH_MARGIN); nothing for a job without a limit.
 walltime_option() {
     local end left
-    end=$(squeue -h -j "$SLURM_JOB_ID" -o %e) || return 0
+    end=$(squeue -h -j "$job" -o %e) || return 0
     end=$(date -d "$end" +%s 2>/dev/null) || return 0
     left=$((end - $(date +%s) - ${HOPSCOTCH_MARGIN:-60}))
     echo "--walltime $((left > 0 ? left : 0))"
@@ -37,8 +41,8 @@ run_to_the_end() {
 # 75: interrupted, nothing lost. The job is queued again under its number and goes on with --resume.
 leave() {
     if [ "$code" = 75 ]; then
-        echo "hopscotch: job $SLURM_JOB_ID has not finished and is queued again" >&2
-        scontrol requeue "$SLURM_JOB_ID"
+        echo "hopscotch: job $job has not finished and is queued again" >&2
+        scontrol requeue "$job"
     fi
     exit "$code"
 }

@@ -46,6 +46,21 @@ mpirun --quiet -n 1 "$program" run "${small[@]}" -o x.h5 : -n 1 "$program" run "
 claim_equal "ranks with different commands are refused" 3 $?
 claim_contains "and the stranger is named" "rank 1 on" err.txt
 
+# every rank on a terminal of its own, where the line is written anew five times a second
+cat >on_terminal.sh <<'END'
+exec script -qec "$*" "rank$OMPI_COMM_WORLD_RANK.txt"
+END
+scene=("$source_folder/configs/scenes/quickstart.toml" grid.axis.0.cells=1000 grid.axis.1.cells=1000
+    "output.tile=[25,25]" accuracy.audit_cells=0 --backend scalar)  # script's words: no space within
+if command -v script >/dev/null; then
+    mpirun --quiet -n 2 sh on_terminal.sh "$program" run "${scene[@]}" -o shown.h5 >out.txt 2>&1
+    claim_contains "rank 0 shows the progress of all" "cells/s" rank0.txt
+    claim_contains "to the end" "100.0 %" rank0.txt
+    claim_equal "the other rank writes nothing" "" "$(grep -v '^Script' rank1.txt)"
+else
+    echo "progress lines left out: no script (bsdutils)"
+fi
+
 # stopped by the batch system's signal, by the time limit; resumed by another number of ranks
 large=("${small[@]}" grid.axis.0.cells=2000 grid.axis.1.cells=2000 "output.tile=[50, 50]")
 hopscotch run "${large[@]}" -o whole.h5 >out.txt 2>&1

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # What goes wrong on clusters, done for real: a rank killed in mid-tile, a second job in the same
-# directory, a full disk, a damaged tile. Nothing finished is lost and the resumed map is the same.
+# directory, a full disk, a damaged tile, kills at random moments. Nothing finished is lost and the
+# resumed map is the same.
 source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
 source "$source_folder/tests/cli/ranks.sh"
+source "$source_folder/tests/cli/kills.sh"
 
 large=("${small[@]}" grid.axis.0.cells=1400 grid.axis.1.cells=1400 "output.tile=[50, 50]" --backend scalar)
 hopscotch run "${large[@]}" -o whole.h5 >out.txt 2>&1
@@ -109,4 +111,8 @@ claim_equal "damaged tiles are computed again" "$hash" "$(hash_of damaged.json)"
 for tile in "${tiles[@]}"; do
     claim_contains "and named" "$(basename "$tile") (" err.txt
 done
+
+# any rank at any moment, also while ranks connect or the map is packed (slow_kills_of_ranks.sh: a hundred)
+mkdir random && cd random || exit 1
+kill_ranks 5
 exit $failed

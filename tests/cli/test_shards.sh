@@ -56,6 +56,18 @@ hopscotch run "${searched[@]}" -o searched1.h5 >out.txt 2>&1
 for part in 1/2 2/2; do hopscotch run "${searched[@]}" -o searched.h5 --shard $part >out.txt 2>&1; done
 claim_exit "shards of a searched scene are joined" 0 hopscotch merge searched.h5
 claim_equal "into the same map" "$(hash_of searched1.json)" "$(hash_of searched.json)"
+
+# a refined map: shards compute the coarse grid, the join what lies below it
+refined=("${searched[@]}" grid.refine=2)
+hopscotch run "${refined[@]}" -o refined1.h5 >out.txt 2>&1
+claim_exit "a shard of a refined map is computed" 0 hopscotch run "${refined[@]}" -o refined.h5 --shard 2/2
+claim_exit "without the other the grid is not refined" 4 hopscotch merge refined.h5
+claim_contains "and the other is named" "shard 1/2 lacks 8 of 8, never begun" err.txt
+hopscotch run "${refined[@]}" -o refined.h5 --shard 1/2 >out.txt 2>&1
+claim_exit "shards of a refined map are joined" 0 hopscotch merge refined.h5
+claim_equal "into the same map" "$(hash_of refined1.json)" "$(hash_of refined.json)"
+claim_contains "which is refined" '"refine_saved_share": 0.' refined.json
+
 for part in 1/2 2/2; do hopscotch run "${searched[@]}" -o stale.h5 --shard $part >out.txt 2>&1; done
 printf 0123456789abcdef >stale.h5.tiles/plan.kept
 claim_exit "tiles labelled by another search are not joined" 4 hopscotch merge stale.h5

@@ -69,6 +69,30 @@ interrupted() {  # NAME SBATCH_ARGUMENTS...: a job that gets USR1 once it has ti
 }
 interrupted mpi --ntasks=2 "$slurm/mpi.sbatch"
 
+# the last task of an array has the array's number in Slurm: only that task is queued again
+array=$(sbatch --parsable --array=1-2 "$slurm/array.sbatch" "${large[@]}" -o tasks.h5)
+for _ in $(seq 300); do
+    [ "$(n_tiles_in tasks.h5.tiles)" -gt 30 ] && break
+    sleep 0.05
+done
+scancel --batch --signal=USR1 "${array}_2"
+for _ in $(seq 300); do
+    grep -q "queued again" "slurm-${array}_2.out" 2>/dev/null && break
+    sleep 0.1
+done
+claim_contains "an interrupted task of an array is queued again" "queued again" "slurm-${array}_2.out"
+wait_for_job "${array}_1"
+claim_contains "the others go on" "shard 1/2 of tasks.h5: all of its" "slurm-${array}_1.out"
+claim_equal "without being queued again" "" "$(grep "queued again" "slurm-${array}_1.out")"
+sleep 2  # as above
+for _ in $(seq 200); do
+    scontrol update JobId="${array}_2" StartTime=now 2>/dev/null && break
+    sleep 0.1
+done
+wait_for_job "${array}_2"
+claim_exit "and the task goes on to its end" 0 hopscotch merge tasks.h5
+claim_equal "with the map of one process" "$(hash_of whole.json)" "$(hash_of tasks.json)"
+
 # no time left: the wall time is read from the job
 job=$(HOPSCOTCH_MARGIN=10000 sbatch --parsable --time=1:00 --ntasks=2 "$slurm/mpi.sbatch" "${small[@]}" -o late.h5)
 for _ in $(seq 300); do

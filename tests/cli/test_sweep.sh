@@ -98,6 +98,15 @@ claim_contains "and says so" "0 of them there" out.txt
 claim_exit "it goes on" 0 hopscotch run "${sweep[@]}" -o late.h5 --resume
 claim_equal "to the same maps" "$hash" "$(hash_of late.json)"
 
+# shards of a sweep take whole maps; a run without --shard completes the index
+claim_exit "a shard of a sweep is computed" 0 hopscotch run "${sweep[@]}" -o part.h5 --shard 2/2
+claim_contains "and says what completes it" "with --resume and without --shard completes the index" out.txt
+claim_equal "it has its own maps" map_000001.h5 "$(ls part.h5.maps)"
+claim_exit "the other shard has the others" 0 hopscotch run "${sweep[@]}" -o part.h5 --shard 1/2
+claim_exit "the index is completed" 0 hopscotch run "${sweep[@]}" -o part.h5 --resume
+claim_contains "without computing a map again" '"cells_computed": 0' part.json
+claim_equal "and is that of one run" "$hash" "$(hash_of part.json)"
+
 # axes that move together
 claim_exit "axes may move together" 0 hopscotch run "${sweep[@]}" sweep.combine=zip \
     sweep.axis.1.name=restitution "sweep.axis.1.values=[0.0, 0.0, 0.0]" -o zip.h5
