@@ -40,7 +40,7 @@ class_grid read_falls(const map_layout& layout, const map_run& run) {
     for (std::uint64_t tile = 0; tile < layout.n_tiles(); ++tile) {
         const tile_data data = run.read(tile);
         for (std::uint64_t k = 0; k < data.box.n_cells(); ++k) {
-            const double code = number_at(number_type::uint8, data.layers[outcomes].data(), k);
+            const double code = number_at(number_type::int8, data.layers[outcomes].data(), k);
             const auto end = static_cast<outcome>(static_cast<int>(code));
             if (is_failure(end)) grid.cells[place_of(shape, data.box, k)] = is_falling;
         }

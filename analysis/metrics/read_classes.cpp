@@ -151,7 +151,7 @@ const layer& checked_layer(const map_reader& map, const std::string& name) {
     const std::size_t index = layer_index(map.layout(), name);
     std::string known;
     for (const layer& each : layers) {
-        const bool is_integer = each.type == number_type::int16 || each.type == number_type::uint8;
+        const bool is_integer = each.type == number_type::int16 || each.type == number_type::int8;
         if (is_integer) known += (known.empty() ? "" : ", ") + each.name;
     }
     const std::string hint = known.empty() ? "" : "one of " + known;
@@ -159,7 +159,7 @@ const layer& checked_layer(const map_reader& map, const std::string& name) {
         throw store_error("layer " + name, "the map has none of that name", hint);
     }
     const number_type type = layers[index].type;
-    if (type != number_type::int16 && type != number_type::uint8) {
+    if (type != number_type::int16 && type != number_type::int8) {
         throw store_error("layer " + name, "its values are no classes", hint);
     }
     return layers[index];

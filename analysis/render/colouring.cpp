@@ -20,7 +20,7 @@ std::map<int, double> shares_of(const image_data& data) {
 }
 
 bool is_integer(const layer& what) {
-    return what.type == number_type::int16 || what.type == number_type::uint8;
+    return what.type == number_type::int16 || what.type == number_type::int8;
 }
 
 std::string name_of_value(const layer& what, int value) {
@@ -91,7 +91,7 @@ void colouring::choose_scale(const image_data& data) {
     highest_ = sorted.back();
     // Counts and times with a long tail are read on a logarithmic scale.
     const auto positive = std::upper_bound(sorted.begin(), sorted.end(), 0.0);
-    const bool is_count = data.what.type == number_type::uint32;
+    const bool is_count = data.what.type == number_type::int32;
     if ((lowest_ > 0.0 || is_count) && positive != sorted.end()) {
         is_log_ = highest_ > 30.0 * quantile(0.5) && highest_ > 100.0 * *positive;
         if (is_log_) lowest_ = *positive;  // a count of 0 takes the scale's lowest colour

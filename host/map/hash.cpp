@@ -72,11 +72,11 @@ layer_sum sum_of_row(std::uint64_t key, const std::byte* values, std::uint64_t n
 layer_sum sum_of_row(number_type type, std::uint64_t key, const std::byte* values,
                      std::uint64_t n) {
     switch (type) {
-        case number_type::uint8:
+        case number_type::int8:
             return sum_of_row<std::uint8_t>(key, values, n);
         case number_type::int16:
             return sum_of_row<std::uint16_t>(key, values, n);
-        case number_type::uint32:
+        case number_type::int32:
             return sum_of_row<std::uint32_t>(key, values, n);
         case number_type::float64:
             return sum_of_row<std::uint64_t>(key, values, n);

@@ -23,15 +23,16 @@ struct axis {
     std::uint64_t size() const { return values.size(); }
 };
 
-enum class number_type : std::uint8_t { uint8, int16, uint32, float64 };
+/// Signed ones: ParaView's reader of netCDF knows no others.
+enum class number_type : std::uint8_t { int8, int16, int32, float64 };
 
 constexpr std::size_t bytes_of(number_type type) {
     switch (type) {
-        case number_type::uint8:
+        case number_type::int8:
             return 1;
         case number_type::int16:
             return 2;
-        case number_type::uint32:
+        case number_type::int32:
             return 4;
         case number_type::float64:
             return 8;
@@ -46,8 +47,7 @@ struct layer {
     number_type type = number_type::float64;
     std::string unit;
     std::string long_name;
-    double fill =
-        0.0;  // means "not computed"; NaN for float64, -1 for int16, the largest value else
+    double fill = 0.0;  // means "not computed"; NaN for float64, else -1
     std::vector<std::pair<int, std::string>> flags;
     bool holds_labels = false;  // its values are attractors: named and coloured like them
 };

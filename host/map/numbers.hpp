@@ -13,12 +13,12 @@ namespace hopscotch {
 template <class Visit>
 decltype(auto) with_type(number_type type, Visit&& visit) {
     switch (type) {
-        case number_type::uint8:
-            return visit(std::uint8_t{});
+        case number_type::int8:
+            return visit(std::int8_t{});
         case number_type::int16:
             return visit(std::int16_t{});
-        case number_type::uint32:
-            return visit(std::uint32_t{});
+        case number_type::int32:
+            return visit(std::int32_t{});
         case number_type::float64:
             break;
     }

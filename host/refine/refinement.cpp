@@ -5,6 +5,7 @@
 #include "host/refine/boundary_walk.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cstring>
 #include <set>
@@ -98,7 +99,7 @@ tile_result compute_coarse(const tile_job& job, const tile_box& box) {
     for (const layer_plan& layer : job.layers) {
         auto& values = tile.layers.emplace_back(box.n_cells() * bytes_of(layer.description.type));
         if (layer.role == layer_role::level) {
-            std::fill(values.begin(), values.end(), static_cast<std::byte>(inherited_level));
+            std::fill(values.begin(), values.end(), std::bit_cast<std::byte>(inherited_level));
         }
     }
     std::vector<std::uint64_t> places;

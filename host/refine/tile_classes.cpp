@@ -19,7 +19,7 @@ std::size_t level_index(const tile_job& job) {
 /// Layers that tell classes apart and that inherited cells have.
 bool is_class(const layer_plan& layer) {
     const number_type type = layer.description.type;
-    const bool is_small = type == number_type::int16 || type == number_type::uint8;
+    const bool is_small = type == number_type::int16 || type == number_type::int8;
     return is_small && layer.role != layer_role::level && layer.role != layer_role::uncertain;
 }
 
@@ -36,7 +36,7 @@ std::uint64_t tile_classes::offset_of(const cell_index& position) const {
 std::uint64_t tile_classes::owner_of(cell_index position, int round) const {
     for (std::uint64_t size = 2;; size *= 2) {
         const std::uint64_t offset = offset_of(position);
-        if (levels[offset] <= round) return offset;
+        if (levels[offset] >= 0 && levels[offset] <= round) return offset;
         // round 0 has computed the last of these
         for (std::size_t i = 0; i < box.extent.size(); ++i) position[i] &= ~(size - 1);
     }
@@ -60,7 +60,7 @@ tile_classes classes_of(const tile_job& job, const tile_data& tile) {
         result.classes[cell] = class_at(job, tile, cell);
     }
     const auto* levels =
-        reinterpret_cast<const std::uint8_t*>(tile.layers[level_index(job)].data());
+        reinterpret_cast<const std::int8_t*>(tile.layers[level_index(job)].data());
     result.levels.assign(levels, levels + tile.box.n_cells());
     result.is_uniform = std::adjacent_find(result.classes.begin(), result.classes.end(),
                                            std::not_equal_to<>()) == result.classes.end();

@@ -11,14 +11,14 @@
 namespace hopscotch::refine {
 
 /// Values of the layer `level` of cells that were not computed themselves.
-inline constexpr int inherited_level = 254;
+inline constexpr std::int8_t inherited_level = -2;
 
 /// The classes of one tile: a number per cell for all class layers, and the levels. Positions count
 /// from the tile's origin, which is a multiple of the coarsest block.
 struct tile_classes {
     tile_box box;
     std::vector<std::uint64_t> classes;
-    std::vector<std::uint8_t> levels;
+    std::vector<std::int8_t> levels;
     bool is_uniform = false;
 
     std::uint64_t offset_of(const cell_index& position) const;

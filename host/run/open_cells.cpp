@@ -41,7 +41,7 @@ open_cells find_open_cells(const scene& scene, const map_run& run, std::size_t m
         const tile_data data = run.read(tile);
         bool is_open = false;
         for (std::uint64_t i = 0; i < data.box.n_cells(); ++i) {
-            const double end = number_at(number_type::uint8, data.layers[outcomes].data(), i);
+            const double end = number_at(number_type::int8, data.layers[outcomes].data(), i);
             if (static_cast<int>(end) != spent) continue;
             is_open = true;
             const std::uint64_t cell = offset_in(shape, coordinates_in(data.box, i));

@@ -23,7 +23,7 @@ trap_gain gain_of(const scene& scene, const map_run& run) {
         const tile_data data = run.read(tile);
         for (std::uint64_t i = 0; i < data.box.n_cells(); ++i) {
             if (!(number_at(number_type::int16, data.layers[labels].data(), i) > 0.0)) continue;
-            const double completed = number_at(number_type::uint32, data.layers[returns].data(), i);
+            const double completed = number_at(number_type::int32, data.layers[returns].data(), i);
             if (completed == layout.layers[returns].fill) continue;  // its label is inherited
             ++gain.n_labelled;
             gain.returns += completed;

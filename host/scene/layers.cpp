@@ -55,8 +55,8 @@ layer_plan state_plan(const scene& scene, int index) {
 /// The layers of a chaos map: one exponent per column of the section.
 void add_exponents(const scene& scene, std::vector<layer_plan>& layers) {
     const auto number = number_type::float64;
-    layers.push_back(plan(layer_role::motion, "motion", number_type::uint8, "1",
-                          "what the largest Lyapunov exponent says", 255.0));
+    layers.push_back(plan(layer_role::motion, "motion", number_type::int8, "1",
+                          "what the largest Lyapunov exponent says", -1.0));
     layers.back().description.flags = flags_of(motion_names);
     layers.push_back(plan(layer_role::exponent, "lyapunov", number, "1",
                           "largest Lyapunov exponent, per return", nan));
@@ -72,9 +72,8 @@ void add_exponents(const scene& scene, std::vector<layer_plan>& layers) {
     layers.push_back(plan(layer_role::exponent_rate, "lyapunov_rate", number,
                           unit == "1" ? unit : unit + "-1",
                           "largest Lyapunov exponent, per unit of time", nan));
-    layers.push_back(plan(layer_role::exponent_returns, "lyapunov_returns", number_type::uint32,
-                          "1", "returns that the exponents rest on",
-                          std::numeric_limits<std::uint32_t>::max()));
+    layers.push_back(plan(layer_role::exponent_returns, "lyapunov_returns", number_type::int32, "1",
+                          "returns that the exponents rest on", -1.0));
 }
 
 /// What orbits are watched for, one by one: at the model's contact, and in their tangent space.
@@ -108,7 +107,6 @@ void add_surveys(const scene& scene, std::vector<layer_plan>& layers) {
 }  // namespace
 
 std::vector<layer_plan> available_layers(const scene& scene) {
-    constexpr double no_count = std::numeric_limits<std::uint32_t>::max();
     std::vector<layer_plan> layers;
     if (scene.question.has_labels) {
         layers.push_back(plan(layer_role::label, "label", number_type::int16, "1",
@@ -123,30 +121,29 @@ std::vector<layer_plan> available_layers(const scene& scene) {
         layers.back().description.holds_labels = true;
     }
     if (scene.question.kind == "lyapunov") add_exponents(scene, layers);
-    layers.push_back(plan(layer_role::outcome, "outcome", number_type::uint8, "1",
-                          "why the orbit's computation ended", 255.0));
+    layers.push_back(plan(layer_role::outcome, "outcome", number_type::int8, "1",
+                          "why the orbit's computation ended", -1.0));
     layers.back().description.flags = flags_of(outcome_names);
     if (scene.refine > 0) {
-        layers.push_back(
-            plan(layer_role::level, "level", number_type::uint8, "1",
-                 "round of refinement in which the cell was computed, 0 = coarse grid "
-                 "(254 = not computed itself: it has the label and outcome of the cell "
-                 "whose block it lies in)",
-                 255.0));
+        layers.push_back(plan(layer_role::level, "level", number_type::int8, "1",
+                              "round of refinement in which the cell was computed, 0 = coarse grid "
+                              "(-2 = not computed itself: it has the label and outcome of the cell "
+                              "whose block it lies in)",
+                              -1.0));
     }
     const int n_columns = static_cast<int>(scene.end_section().columns.size());
     if (scene.question.kind == "orbit_diagram") {
         for (int index = 0; index < n_columns; ++index) layers.push_back(state_plan(scene, index));
         return layers;
     }
-    layers.push_back(plan(layer_role::uncertain, "uncertain", number_type::uint8, "1",
+    layers.push_back(plan(layer_role::uncertain, "uncertain", number_type::int8, "1",
                           "whether the answer changes when the start moves by a few roundings",
-                          255.0));
+                          -1.0));
     layers.back().description.flags = flags_of(certainty_names);
-    layers.push_back(plan(layer_role::returns, "returns", number_type::uint32, "1",
-                          "completed returns", no_count));
-    layers.push_back(plan(layer_role::events, "events", number_type::uint32, "1",
-                          "resets and mode changes", no_count));
+    layers.push_back(
+        plan(layer_role::returns, "returns", number_type::int32, "1", "completed returns", -1.0));
+    layers.push_back(plan(layer_role::events, "events", number_type::int32, "1",
+                          "resets and mode changes", -1.0));
     layers.push_back(plan(layer_role::time, "time", number_type::float64,
                           std::string(scene.info().time_unit), "time from the start to the end",
                           nan));

@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include <fmt/format.h>
 
 namespace hopscotch {
 namespace {
 
-constexpr std::int64_t most_returns = std::int64_t{1} << 31;
+constexpr std::int64_t most_returns = std::numeric_limits<std::int32_t>::max();
 
 const question_kind& read_kind(const table_reader& table) {
     const auto known = names_of(question_kinds());

@@ -163,8 +163,8 @@ tile_summary summarise(const map_layout& layout, const tile_data& tile) {
     for (std::size_t i = 0; i < layout.layers.size(); ++i) {
         summary.sums.push_back(sum_of(layout, tile.box, i, tile.layers[i]));
         const number_type type = layout.layers[i].type;
-        if (type == number_type::uint8) {
-            summary.counts.push_back(counts_of<std::uint8_t>(tile.layers[i]));
+        if (type == number_type::int8) {
+            summary.counts.push_back(counts_of<std::int8_t>(tile.layers[i]));
         } else if (type == number_type::int16) {
             summary.counts.push_back(counts_of<std::int16_t>(tile.layers[i]));
         } else {
@@ -182,12 +182,12 @@ compressed_tile compress(const map_layout& layout, const tile_data& tile, int le
         const layer& each = layout.layers[i];
         std::vector<std::byte> bytes = padded(layout, tile.box, each, tile.layers[i]);
         switch (each.type) {
-            case number_type::uint8:
+            case number_type::int8:
                 break;
             case number_type::int16:
                 bytes = shuffled<2>(bytes);
                 break;
-            case number_type::uint32:
+            case number_type::int32:
                 bytes = shuffled<4>(bytes);
                 break;
             case number_type::float64:
@@ -206,12 +206,12 @@ std::vector<std::byte> decode_chunk(const map_layout& layout, const tile_box& bo
     std::vector<std::byte> bytes =
         inflated(chunk, cells_of_full_tile(layout) * bytes_of(each.type));
     switch (each.type) {
-        case number_type::uint8:
+        case number_type::int8:
             break;
         case number_type::int16:
             bytes = unshuffled<2>(bytes);
             break;
-        case number_type::uint32:
+        case number_type::int32:
             bytes = unshuffled<4>(bytes);
             break;
         case number_type::float64:

@@ -20,7 +20,7 @@ using value_counts = std::map<int, std::uint64_t>;
 /// What is known of a tile without its numbers; one entry per layer.
 struct tile_summary {
     std::vector<layer_sum> sums;
-    std::vector<value_counts> counts;  // empty for uint32 and float64 layers
+    std::vector<value_counts> counts;  // empty for int32 and float64 layers
     double seconds = 0.0;              // spent computing it
 };
 

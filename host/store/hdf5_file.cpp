@@ -225,7 +225,7 @@ void hdf5_file::write(const std::string& path, const shape_type& shape,
 
 hdf5_type hdf5_file::type_of(const std::string& path) const {
     const hdf5_handle type(H5Dget_type(dataset(path)));
-    for (const hdf5_type each : {hdf5_type::uint8, hdf5_type::int16, hdf5_type::int32,
+    for (const hdf5_type each : {hdf5_type::int8, hdf5_type::int16, hdf5_type::int32,
                                  hdf5_type::uint32, hdf5_type::uint64, hdf5_type::float64}) {
         if (H5Tequal(type.id(), file_type_of(each)) > 0) return each;
     }

@@ -19,7 +19,7 @@
 namespace hopscotch {
 
 /// Types as they lie in a file.
-enum class hdf5_type : std::uint8_t { uint8, int16, int32, uint32, uint64, float64, text };
+enum class hdf5_type : std::uint8_t { int8, int16, int32, uint32, uint64, float64, text };
 
 /// A dataset made of chunks that the caller compresses.
 struct chunked_dataset {

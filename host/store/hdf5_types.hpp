@@ -15,8 +15,8 @@ static_assert(sizeof(hdf5_handle::identifier) == sizeof(hid_t));
 
 inline hid_t file_type_of(hdf5_type type) {
     switch (type) {
-        case hdf5_type::uint8:
-            return H5T_STD_U8LE;
+        case hdf5_type::int8:
+            return H5T_STD_I8LE;
         case hdf5_type::int16:
             return H5T_STD_I16LE;
         case hdf5_type::int32:

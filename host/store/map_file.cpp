@@ -101,18 +101,19 @@ axis read_axis(hdf5_file& file, const std::string& name) {
 
 number_type number_type_of(const hdf5_file& file, const std::string& name) {
     switch (file.type_of(name)) {
-        case hdf5_type::uint8:
-            return number_type::uint8;
+        case hdf5_type::int8:
+            return number_type::int8;
         case hdf5_type::int16:
             return number_type::int16;
-        case hdf5_type::uint32:
-            return number_type::uint32;
+        case hdf5_type::int32:
+            return number_type::int32;
         case hdf5_type::float64:
             return number_type::float64;
         default:
             break;
     }
-    throw store_error(file.place() + ": " + name, "not a number type of a layer", "");
+    throw store_error(file.place() + ": " + name, "not a number type of a layer",
+                      "a map that another version has written?");
 }
 
 layer read_layer(hdf5_file& file, const std::string& name) {
@@ -178,12 +179,12 @@ void describe_layer(hdf5_file& file, const layer& each,
 
 hdf5_type stored_as(number_type type) {
     switch (type) {
-        case number_type::uint8:
-            return hdf5_type::uint8;
+        case number_type::int8:
+            return hdf5_type::int8;
         case number_type::int16:
             return hdf5_type::int16;
-        case number_type::uint32:
-            return hdf5_type::uint32;
+        case number_type::int32:
+            return hdf5_type::int32;
         case number_type::float64:
             break;
     }

@@ -91,7 +91,7 @@ public:
     /// Seconds that computing a finished tile took.
     double seconds_of(std::uint64_t tile) const;
 
-    /// How often each value of an integer layer (uint8, int16) occurs in the finished tiles.
+    /// How often each value of an integer layer (int8, int16) occurs in the finished tiles.
     value_counts counts(std::string_view layer) const;
 
     /// The hash over the finished tiles (the map's hash once none is missing).

@@ -36,7 +36,7 @@ void write_states(const std::filesystem::path& file, const map_layout& layout, S
             for (std::uint64_t k = 0; k < tile.box.extent.back(); ++k, ++at, ++position.back()) {
                 const cell_state state = state_of(position);
                 fill_numbers(number_type::int16, tile.layers[0].data(), at, 1, state.label);
-                fill_numbers(number_type::uint8, tile.layers[1].data(), at, 1, state.outcome);
+                fill_numbers(number_type::int8, tile.layers[1].data(), at, 1, state.outcome);
             }
         });
         run.put(compress(layout, tile, 4));

@@ -46,9 +46,9 @@ inline map_layout sample_layout(const std::vector<std::uint64_t>& sizes,
         layout.axes.push_back(sample_axis(names[i], 0.0, 2.0 + static_cast<double>(i), sizes[i]));
     }
     layout.layers.push_back(sample_layer("label", number_type::int16, -1));
-    layout.layers.push_back(sample_layer("outcome", number_type::uint8, 255));
+    layout.layers.push_back(sample_layer("outcome", number_type::int8, -1));
     layout.layers.back().flags = {{0, "ok"}, {1, "attracted"}, {22, "budget"}};
-    layout.layers.push_back(sample_layer("returns", number_type::uint32, 4294967295.0));
+    layout.layers.push_back(sample_layer("returns", number_type::int32, -1.0));
     layout.layers.push_back(
         sample_layer("time", number_type::float64, std::numeric_limits<double>::quiet_NaN()));
     layout.layers.back().unit = "s";

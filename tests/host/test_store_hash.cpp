@@ -63,11 +63,11 @@ TEST(map_hash, notices_two_swapped_cells) {
     const map_layout layout = sample_layout({40, 30}, {40, 30});
     tile_data tile = sample_tile(layout, 0);
     const layer_sum before = sum_of(layout, tile.box, 2, tile.layers[2]);
-    double first = number_at(number_type::uint32, tile.layers[2].data(), 3);
-    double second = number_at(number_type::uint32, tile.layers[2].data(), 777);
+    double first = number_at(number_type::int32, tile.layers[2].data(), 3);
+    double second = number_at(number_type::int32, tile.layers[2].data(), 777);
     ASSERT_NE(first, second);
-    fill_numbers(number_type::uint32, tile.layers[2].data(), 3, 1, second);
-    fill_numbers(number_type::uint32, tile.layers[2].data(), 777, 1, first);
+    fill_numbers(number_type::int32, tile.layers[2].data(), 3, 1, second);
+    fill_numbers(number_type::int32, tile.layers[2].data(), 777, 1, first);
     EXPECT_NE(sum_of(layout, tile.box, 2, tile.layers[2]), before);
 }
 

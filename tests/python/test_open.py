@@ -47,6 +47,13 @@ class MapFile(unittest.TestCase):
                 self.assertEqual(file[name].shuffle, file[name].dtype.itemsize > 1)
                 self.assertEqual(list(file[name].chunks), extents.max(axis=0).tolist())
 
+    def test_layers_and_axes_have_types_that_paraview_s_netcdf_reader_knows(self):
+        known = {np.dtype(kind) for kind in ("int8", "int16", "int32", "float32", "float64")}
+        with h5py.File(MAP) as file:
+            for name, item in file.items():
+                if isinstance(item, h5py.Dataset):
+                    self.assertIn(item.dtype.newbyteorder("="), known, name)
+
     def test_every_tile_is_in_the_tile_table_and_together_they_are_the_map(self):
         with h5py.File(MAP) as file:
             shape = np.array(file[layers_of(file)[0]].shape)
