@@ -2,7 +2,7 @@
 // what the model tests share.
 #pragma once
 
-#include "analysis/orbit/instantiate.hpp"
+#include "tests/models/model_orbits.hpp"
 
 #include <cstddef>
 #include <cstdlib>
@@ -84,7 +84,7 @@ orbit_answer run_row(const model_row& row, arithmetic kind = arithmetic::plain) 
     orbit.parameters = parameters;
     orbit.returns = row.returns;
     orbit.derivative = row.derivative;
-    const orbit_functions& functions = orbit_table<Model>;
+    const orbit_functions& functions = orbits_of<Model>();
     if (kind == arithmetic::plain) return functions.run_double(orbit);
     if (kind == arithmetic::wide) return functions.run_dd(orbit);
     return functions.run_mp50(orbit);

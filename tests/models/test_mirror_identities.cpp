@@ -66,10 +66,10 @@ struct planar_return {
         row.columns = columns;
         row.parameters = texts;
         row.returns = 1;
-        const orbit_answer end = orbit_table<mirror_planar>.run_double(row);
+        const orbit_answer end = orbits_of<mirror_planar>().run_double(row);
         EXPECT_EQ(end.end, outcome::ok);
         for (std::size_t c = 0; c < 3; ++c) next[c] = number(end.columns[c]);
-        orbit_table<mirror_planar>.trace(row, hit);
+        orbits_of<mirror_planar>().trace(row, hit);
         gain = offset + energy_gain * gravity * (target - z);
         rise = hit.z_rate_after / gravity;
         const double square = hit.x * hit.x + hit.z * hit.z;

@@ -139,7 +139,7 @@ int label_of(const std::string& y, const settings& set) {
     orbit_row row{.variant = 1, .columns = columns, .parameters = parameters, .returns = 1000};
     row.decided_by = decision::certificate;
     row.died_label = 1;
-    return orbit_table<model>.run_double(row).label;
+    return orbits_of<model>().run_double(row).label;
 }
 
 TEST(MirrorLine, labels_follow_the_cascade) {

@@ -254,7 +254,7 @@ TEST(RaibertLinearSimple, certificate_labels_valid_parameters_only) {
         orbit_row row{.variant = 1, .columns = columns, .parameters = parameters, .returns = 100};
         row.decided_by = decision::certificate;
         row.died_label = 1;
-        return orbit_table<model>.run_double(row).label;
+        return orbits_of<model>().run_double(row).label;
     };
     EXPECT_EQ(label({}, "0.001"), 2);
     EXPECT_EQ(label({}, "1e-7"), 2);  // enters the trap after a hop or two

@@ -36,7 +36,7 @@ int label_at(const std::string& gain, const std::string& energy = "1.5") {
     orbit_row row{.section = 1, .variant = 1, .columns = columns, .parameters = parameters};
     row.decided_by = decision::certificate;
     row.died_label = 1;
-    return orbit_table<model>.run_double(row).label;
+    return orbits_of<model>().run_double(row).label;
 }
 
 TEST(RaibertPneumaticSimple, figure_11_settles_on_the_published_cycle) {

@@ -58,7 +58,7 @@ int trace_row(const model_row& row, double tolerance) {
     orbit.parameters = parameters;
     orbit.returns = row.returns;
     trace_check check(static_cast<int>(Model::info.trace_columns.size()), tolerance);
-    const orbit_answer answer = orbit_table<Model>.trace(orbit, check);
+    const orbit_answer answer = orbits_of<Model>().trace(orbit, check);
     EXPECT_NEAR(check.end, number(answer.time), tolerance);
     EXPECT_EQ(check.events, static_cast<int>(answer.events));
     return check.events;
