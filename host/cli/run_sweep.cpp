@@ -72,6 +72,8 @@ std::string json_of(const scene& scene, const sweep_report& report) {
     add("maps_computed", fmt::format("{}", report.n_computed));
     add("cells_per_map", fmt::format("{}", report.n_cells_per_map));
     add("cells_computed", fmt::format("{}", report.tally.cells));
+    add("idle_at_end", fmt::format("{:.17g}", report.idle_at_end));
+    add("tiles_helped", fmt::format("{}", report.n_helped));
     add("seconds", fmt::format("{:.17g}", report.seconds));
     text += "  \"maps\": [";
     for (std::size_t i = 0; i < report.maps.size(); ++i) {

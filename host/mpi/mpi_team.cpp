@@ -1,6 +1,7 @@
 // Collective operations, all of them non-blocking so that waiting costs no processor time.
 #include "host/mpi/mpi_team.hpp"
 
+#include "host/mpi/mpi_counters.hpp"
 #include "host/mpi/mpi_queue.hpp"
 #include "host/run/exit_code.hpp"
 #include "host/run/stop_condition.hpp"
@@ -51,6 +52,10 @@ int mpi_team::default_threads() const {
 std::unique_ptr<tile_queue> mpi_team::open_queue(std::vector<std::uint64_t> tiles,
                                                  progress_display show) {
     return std::make_unique<mpi_queue>(session_, std::move(tiles), std::move(show));
+}
+
+std::unique_ptr<shared_counters> mpi_team::open_counters(std::size_t n) {
+    return std::make_unique<mpi_counters>(session_, n);
 }
 
 void mpi_team::together(const std::function<void()>& work) {

@@ -16,6 +16,7 @@ public:
     int default_threads() const override;
     std::unique_ptr<tile_queue> open_queue(std::vector<std::uint64_t> tiles,
                                            progress_display show) override;
+    std::unique_ptr<shared_counters> open_counters(std::size_t n) override;
     void together(const std::function<void()>& work) override;
     std::vector<std::uint64_t> from_first(std::vector<std::uint64_t> numbers) override;
     std::vector<double> from_all(double number) override;

@@ -75,19 +75,19 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
     report.is_finished = true;
 }
 
-/// Share of the ranks' time in which they had nothing left to draw, while others still computed.
-double idle_share(const std::vector<double>& seconds) {
-    const double longest = *std::max_element(seconds.begin(), seconds.end());
-    double idle = 0.0;
-    for (const double each : seconds) idle += longest - each;
-    return longest > 0.0 ? idle / (longest * static_cast<double>(seconds.size())) : 0.0;
-}
-
 /// Name under which the plan of a second search is kept.
 constexpr const char* kept_second_plan = "second_plan";
 
 /// Name under which is kept that the rounds of refinement have begun.
 constexpr const char* kept_refining = "refining";
+
+/// Name under which a helper keeps what the device has said that it has lost.
+constexpr const char* kept_lost_device = "lost_device";
+
+/// A tile's first computation: whole, or its part of the coarse grid.
+tile_result compute_first(const tile_job& job, const tile_box& box) {
+    return job.what.refine > 0 ? refine::compute_coarse(job, box) : compute_tile(job, box);
+}
 
 /// One run by a team, seen from one rank. The members are called in the order they stand here.
 class team_run {
@@ -215,9 +215,7 @@ private:
     /// Computes tiles together; true where all of them are done.
     bool compute(const std::vector<std::uint64_t>& tiles) {
         const tile_job work = job();
-        return compute(tiles, [&](const tile_box& box) -> std::optional<tile_result> {
-            return scene_.refine > 0 ? refine::compute_coarse(work, box) : compute_tile(work, box);
-        });
+        return compute(tiles, [&](const tile_box& box) { return compute_first(work, box); });
     }
 
     /// The rounds after the coarse grid, until one finds no boundary that is not known. A resumed
@@ -280,7 +278,7 @@ private:
         report_.n_missing = tiles.size() - total.tiles;
         tell_failed_devices();
         ranks_.together([&] {
-            if (ranks_.is_first() && ranks_.size() > 1) run_->rescan(tiles);
+            if (ranks_.is_first() && ranks_.has_helpers()) run_->rescan(tiles);
         });
         return report_.n_missing == 0;
     }
@@ -291,10 +289,16 @@ private:
         const std::string failure = kernel_.failure();
         double n_failed = 0.0;
         for (const double each : ranks_.from_all(failure.empty() ? 0.0 : 1.0)) n_failed += each;
-        if (n_failed == 0.0 || !report_.device_failure.empty()) return;
+        const std::string of_helper = run_->kept(kept_lost_device);
+        if (n_failed == 0.0 && of_helper.empty()) return;
+        if (!report_.device_failure.empty()) return;
         report_.backend = kernel_.backends();
-        report_.device_failure =
-            failure.empty() ? fmt::format("of {} ranks other than the first", n_failed) : failure;
+        report_.device_failure = failure;
+        if (failure.empty()) {
+            report_.device_failure = of_helper.empty()
+                                         ? fmt::format("of {} ranks other than the first", n_failed)
+                                         : of_helper;
+        }
         report_.notes.push_back(fmt::format("the device failed ({}): computed on by the processor",
                                             report_.device_failure));
     }
@@ -389,6 +393,37 @@ run_report run_map(const scene& scene, const run_choices& choices, const run_hoo
 run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks) {
     team_of_one alone;
     return run_map(scene, choices, hooks, alone);
+}
+
+void help_with_map(const scene& scene, const run_choices& choices, const run_hooks& hooks,
+                   tile_queue& queue) {
+    const stop_condition stop(choices.walltime);
+    kernel_in_use kernel = map_kernel_of(scene, choices.backend);
+    const map_layout layout = layout_of(scene);
+    const std::vector<layer_plan> layers = chosen_layers(scene);
+    map_run run(layout, run_options{.map = choices.file,
+                                    .fingerprint = scene.fingerprint,
+                                    .attributes = {},
+                                    .role = run_role::helper});
+    const std::vector<std::uint64_t> missing = run.missing_tiles();
+    const std::vector<std::uint64_t> searched = cells_of(run.kept(searched_cells));
+    label_plan plan;
+    if (hooks.plan && scene.question.has_labels) {
+        plan = hooks.plan(scene, searched);
+        if (run.kept(searched.empty() ? kept_plan : kept_second_plan) != plan_digest(plan)) {
+            throw device_error(choices.file.string() +
+                               " (its owner has found other attractors: another kind of "
+                               "processor); nodes of one kind?");
+        }
+    }
+    const tile_job job{scene, plan, layout, layers, kernel};
+    const tile_work work = [&](const tile_box& box) -> std::optional<tile_result> {
+        if (!std::binary_search(missing.begin(), missing.end(), box.index)) return std::nullopt;
+        tile_result result = compute_first(job, box);
+        if (!kernel.failure().empty()) run.keep(kept_lost_device, kernel.failure());
+        return result;
+    };
+    compute_tiles(job, work, queue, run, stop, choices.n_threads);
 }
 
 int threads_for(int wanted) { return wanted > 0 ? wanted : tbb::info::default_concurrency(); }

@@ -80,6 +80,13 @@ run_report run_map(const scene& scene, const run_choices& choices, const run_hoo
 run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks,
                    team& ranks);
 
+/// Computes tiles of a map that another process owns, as the queue gives them; the owner has opened
+/// its run and kept its plan. Tiles that were there already are left as they are.
+/// \param choices  the owner's but for `n_threads` (> 0) and `walltime`
+/// \error  as run_map; device_error where this machine finds other attractors than the owner's
+void help_with_map(const scene& scene, const run_choices& choices, const run_hooks& hooks,
+                   tile_queue& queue);
+
 /// Number of threads for a choice of 0 or more, of a process alone.
 int threads_for(int wanted);
 

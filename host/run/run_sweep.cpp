@@ -3,6 +3,7 @@
 
 #include "host/map/text_hash.hpp"
 #include "host/run/attributes.hpp"
+#include "host/run/map_draw.hpp"
 #include "host/run/orbit_diagram.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
@@ -13,10 +14,12 @@
 #include "host/store/run_lock.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <thread>
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -28,32 +31,47 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A map of the sweep is computed by a team of one whose tiles count in the sweep's progress.
+/// What a pass of a map adds to the sweep's progress, tile by tile.
+progress_display in_sweep(std::function<void(const run_tally&)> count, bool is_first_pass) {
+    return [count = std::move(count), is_first_pass,
+            counted = run_tally{}](const run_tally& so_far) mutable {
+        run_tally more = so_far;  // since the last tile
+        more.tiles = 0;           // the sweep counts maps
+        more.cells = is_first_pass ? so_far.cells - counted.cells : 0;
+        more.undecided -= counted.undecided;
+        more.busy -= counted.busy;
+        more.lanes.issued -= counted.lanes.issued;
+        more.lanes.useful -= counted.lanes.useful;
+        counted = so_far;
+        count(more);
+    };
+}
+
+/// A map of the sweep is computed by a team of one, whose tiles count in the sweep's progress and
+/// whose first pass is open to helpers.
 class member_of_sweep : public team_of_one {
 public:
-    explicit member_of_sweep(std::function<void(const run_tally&)> count)
-        : count_(std::move(count)) {}
+    /// \param draw  null where there are no other ranks
+    member_of_sweep(std::function<void(const run_tally&)> count, map_draw* draw, std::size_t map)
+        : count_(std::move(count)), draw_(draw), map_(map) {}
 
     std::unique_ptr<tile_queue> open_queue(std::vector<std::uint64_t> tiles,
                                            progress_display) override {
-        const bool is_first_pass = ++n_passes_ == 1;
-        counted_ = {};
-        return team_of_one::open_queue(std::move(tiles), [=, this](const run_tally& so_far) {
-            run_tally more = so_far;  // since the last tile
-            more.tiles = 0;           // the sweep counts maps
-            more.cells = is_first_pass ? so_far.cells - counted_.cells : 0;
-            more.undecided -= counted_.undecided;
-            more.busy -= counted_.busy;
-            more.lanes.issued -= counted_.lanes.issued;
-            more.lanes.useful -= counted_.lanes.useful;
-            counted_ = so_far;
-            count_(more);
-        });
+        const bool is_first = ++n_passes_ == 1;
+        if (!is_first || draw_ == nullptr) {
+            return team_of_one::open_queue(std::move(tiles), in_sweep(count_, is_first));
+        }
+        return std::make_unique<owner_queue>(*draw_, map_, std::move(tiles),
+                                             in_sweep(count_, is_first));
+    }
+    bool has_helpers() const override {
+        return draw_ != nullptr && n_passes_ == 1 && draw_->n_helped(map_) > 0;
     }
 
 private:
     std::function<void(const run_tally&)> count_;
-    run_tally counted_;
+    map_draw* draw_;
+    std::size_t map_;
     int n_passes_ = 0;
 };
 
@@ -217,54 +235,110 @@ private:
                            choices_.is_quiet || !ranks_.is_first());
         const auto queue =
             ranks_.open_queue(missing, [&](const run_tally& tally) { line.show(tally); });
+        map_draw draw(ranks_.open_counters(map_draw::n_counters(missing.size())),
+                      layout().n_tiles());
+        pool all{missing, *queue, draw};
+        double end = 0.0;
         ranks_.together([&] {
             try {
-                tbb::task_arena(n_threads_).execute([&] { draw_maps(*queue); });
+                tbb::task_arena(n_threads_).execute([&] { draw_maps(all); });
+                if (ranks_.size() > 1) help(all);
             } catch (...) {
-                queue->halt();
+                halt(all);
                 throw;
             }
+            end = stop_.elapsed();
         });
         report_.tally = queue->close();
         report_.n_computed = report_.tally.tiles;
         report_.seconds = stop_.elapsed();
+        report_.idle_at_end = idle_share(ranks_.from_all(end));
+        if (!ranks_.is_first()) return;
+        for (std::size_t i = 0; i < missing.size(); ++i) report_.n_helped += draw.n_helped(i);
     }
 
-    void draw_maps(tile_queue& queue) {
+    /// The maps to compute, numbered in this order, and where threads and ranks draw them.
+    struct pool {
+        const std::vector<std::uint64_t>& points;
+        tile_queue& maps;
+        map_draw& tiles;
+        void count(const run_tally& tally) {
+            const std::lock_guard guard(mutex);
+            maps.count(tally);
+        }
+        std::mutex mutex{};
+    };
+
+    static void halt(pool& all) {
+        all.maps.halt();
+        all.tiles.halt();
+    }
+
+    void draw_maps(pool& all) {
         using tbb::filter_mode;
         tbb::parallel_pipeline(
             static_cast<std::size_t>(n_threads_),
-            tbb::make_filter<void, std::uint64_t>(
-                filter_mode::serial_in_order,
-                [&](tbb::flow_control& flow) {
-                    if (stop_condition::is_interrupted()) queue.halt();
-                    if (!stop_.is_due()) {
-                        if (const std::optional<std::uint64_t> point = queue.next()) return *point;
-                    }
-                    flow.stop();
-                    return std::uint64_t{0};
-                }) &
+            tbb::make_filter<void, std::uint64_t>(filter_mode::serial_in_order,
+                                                  [&](tbb::flow_control& flow) {
+                                                      if (stop_condition::is_interrupted())
+                                                          halt(all);
+                                                      if (!stop_.is_due()) {
+                                                          if (const auto point = all.maps.next())
+                                                              return *point;
+                                                      }
+                                                      flow.stop();
+                                                      return std::uint64_t{0};
+                                                  }) &
                 tbb::make_filter<std::uint64_t, void>(
-                    filter_mode::parallel,
-                    [&](std::uint64_t point) { compute_map(point, queue); }));
+                    filter_mode::parallel, [&](std::uint64_t point) { compute_map(point, all); }));
     }
 
-    void compute_map(std::uint64_t point, tile_queue& queue) {
+    void compute_map(std::uint64_t point, pool& all) {
+        const auto place = std::lower_bound(all.points.begin(), all.points.end(), point);
+        const auto index = static_cast<std::size_t>(place - all.points.begin());
         const scene map = map_scene(sweep_, point);
-        const auto count = [&](const run_tally& tally) {
-            const std::lock_guard guard(mutex_);
-            queue.count(tally);
-        };
-        member_of_sweep alone(count);
+        member_of_sweep alone([&](const run_tally& tally) { all.count(tally); },
+                              ranks_.size() > 1 ? &all.tiles : nullptr, index);
         const run_choices choices = choices_of_map(point);
         const run_report done = run_map(map, choices, hooks_.of_map(map, choices.file), alone);
+        all.tiles.close(index);  // nobody waits for a map that has not been opened, a diagram's
         if (done.is_finished) {
             run_tally one;
             one.tiles = 1;
-            count(one);
+            all.count(one);
         }
         const std::lock_guard guard(mutex_);
         note(done);
+    }
+
+    /// Without a map of its own this rank computes tiles of the others' until there are none. A map
+    /// with few tiles left is not worth the search for its attractors.
+    void help(pool& all) {
+        std::vector<std::size_t> maps(all.points.size());
+        std::iota(maps.begin(), maps.end(), std::size_t{0});
+        while (!all.tiles.is_halted() && !stop_.is_due()) {
+            std::erase_if(maps, [&](std::size_t map) { return all.tiles.is_dry(map); });
+            if (maps.empty()) return;
+            bool has_helped = false;
+            for (const std::size_t map : maps) {
+                const auto enough = 2 * static_cast<std::uint64_t>(n_threads_);
+                if (all.tiles.n_left(map) <= enough) continue;
+                help_with(map, all);
+                has_helped = true;
+            }
+            if (!has_helped) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    }
+
+    void help_with(std::size_t index, pool& all) {
+        helper_queue queue(all.tiles, index,
+                           in_sweep([&](const run_tally& tally) { all.count(tally); }, true));
+        const std::optional<std::uint64_t> first = queue.next();
+        if (!first) return;
+        queue.put_back(*first);  // until it is finished the owner keeps the run open
+        const scene map = map_scene(sweep_, all.points[index]);
+        const run_choices choices = choices_of_map(all.points[index]);
+        help_with_map(map, choices, hooks_.of_map(map, choices.file), queue);
     }
 
     void note(const run_report& done) {

@@ -64,13 +64,16 @@ struct sweep_report {
     std::uint64_t n_cells_per_map = 0;
     run_tally tally;
     double seconds = 0.0;
-    std::string hash;  // over the maps' hashes
+    double idle_at_end = 0.0;    // share of the ranks' time after they found nothing more to do
+    std::uint64_t n_helped = 0;  // tiles computed by other ranks than their map's
+    std::string hash;            // over the maps' hashes
     std::vector<std::string> notes;
 };
 
 /// The maps of a sweep (or of a shard: every N-th point) by all ranks of a team. Threads and ranks
-/// draw maps from one queue; a thread that finds no further map helps with the tiles of those that
-/// are left. Where there are fewer maps than ranks, all ranks compute one map after the other
+/// draw maps from one queue; a thread or a rank that finds no further map helps with the tiles of
+/// those that are left (a rank with those of the first pass, not with a second search's or a
+/// refinement's). Where there are fewer maps than ranks, all ranks compute one map after the other
 /// together. \error as run_map; finished maps and tiles always stay
 sweep_report run_sweep(const scene& sweep, const run_choices& choices, const sweep_hooks& hooks,
                        team& ranks);

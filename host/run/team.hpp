@@ -2,6 +2,7 @@
 // needs of them and nothing else; a run without MPI goes through the same lines with a team of one.
 #pragma once
 
+#include "host/run/shared_counters.hpp"
 #include "host/run/tile_queue.hpp"
 
 #include <cstdint>
@@ -43,6 +44,12 @@ public:
     virtual std::unique_ptr<tile_queue> open_queue(std::vector<std::uint64_t> tiles,
                                                    progress_display show) = 0;
 
+    /// Counters that begin at 0. Collective, and so is their end.
+    virtual std::unique_ptr<shared_counters> open_counters(std::size_t n) = 0;
+
+    /// True where other processes may have put tiles into the run that this one owns.
+    virtual bool has_helpers() const { return size() > 1; }
+
     /// Runs `work`; what one rank throws ends it on all. Collective.
     /// \error  rank 0's own exception, or rank_failure; `interruption` where that was thrown
     virtual void together(const std::function<void()>& work) = 0;
@@ -69,6 +76,7 @@ public:
     int default_threads() const override;
     std::unique_ptr<tile_queue> open_queue(std::vector<std::uint64_t> tiles,
                                            progress_display show) override;
+    std::unique_ptr<shared_counters> open_counters(std::size_t n) override;
     void together(const std::function<void()>& work) override { work(); }
     std::vector<std::uint64_t> from_first(std::vector<std::uint64_t> numbers) override {
         return numbers;
@@ -77,5 +85,9 @@ public:
     std::string who_differs(const std::string&) override { return {}; }
     void leave(const std::exception&) noexcept override {}
 };
+
+/// Share of the ranks' time in which they had nothing left to draw, while others still computed.
+/// \param seconds  after which each rank has found nothing more, >= 0
+double idle_share(const std::vector<double>& seconds);
 
 }  // namespace hopscotch

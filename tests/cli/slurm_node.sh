@@ -76,14 +76,40 @@ done
 [ "$(sinfo -h -o %t 2>/dev/null)" = idle ] ||
     skip "slurm does not start: $(tail -qn 2 "$cluster"/slurm{ctld,d}.out | tr '\n' ' ')"
 
-wait_for_job() {  # JOB: until it is no longer known or has ended
-    for _ in $(seq 600); do
-        case $(squeue -h -j "$1" -t all -o %T 2>/dev/null | sort -u | tr '\n' ' ') in
-            *PENDING* | *RUNNING* | *COMPLETING* | *CONFIGURING* | *REQUEUED*) sleep 0.2 ;;
-            *) return ;;
-        esac
+# A busy machine takes its time: waits are long and end early.
+wait_until() {  # SECONDS COMMAND...: until it succeeds; false where it never does
+    local end=$((SECONDS + $1))
+    shift
+    until "$@"; do
+        [ $SECONDS -lt $end ] || return 1
+        sleep 0.1
     done
-    fail "job $1 ends" "it is still $(squeue -h -j "$1" -t all)"
 }
 
-job_state() { scontrol show job "$1" -o | grep -o ' JobState=[A-Z]*' | cut -d= -f2 | sort -u | tr '\n' ' '; }
+n_tiles_in() { find "$1" -name 'tile_*.h5' 2>/dev/null | wc -l; }
+has_tiles() { [ "$(n_tiles_in "$1")" -gt "$2" ]; }  # FOLDER N: more than N
+says() { grep -qs -- "$2" "$1"; }                  # FILE TEXT
+
+job_facts() { scontrol show job "$1" -o 2>/dev/null; }  # JOB: everything, on one line
+has_fact() { job_facts "$1" | grep -qE " ($2)( |$)"; }  # JOB PATTERN of a fact, e.g. Restarts=1
+has_ended() {  # JOB, or the number of an array: no task of it waits or runs
+    case $(squeue -h -j "$1" -t all -o %T 2>/dev/null | sort -u | tr '\n' ' ') in
+        *PENDING* | *RUNNING* | *COMPLETING* | *CONFIGURING* | *REQUEUE* | *SUSPENDED*) return 1 ;;
+    esac
+}
+
+wait_for_job() {  # JOB [SECONDS]: until it is no longer known or has ended
+    wait_until "${2:-300}" has_ended "$1" || fail "job $1 ends" "it is still $(squeue -h -j "$1" -t all)"
+}
+
+# Slurm starts a job that was queued again once its old credentials have expired (cred_expire, 10 s).
+has_started_again() {  # JOB
+    has_fact "$1" "Restarts=1" && has_fact "$1" "JobState=(RUNNING|COMPLETING|COMPLETED)"
+}
+wait_for_restart() {  # JOB [SETTING=VALUE...], e.g. TimeLimit=30
+    local job=$1
+    shift
+    wait_until 120 has_fact "$job" "Restarts=1"
+    [ $# = 0 ] || scontrol update JobId="$job" "$@"
+    wait_until 180 has_started_again "$job" || fail "job $job starts again" "$(job_facts "$job")"
+}
