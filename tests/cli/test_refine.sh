@@ -30,6 +30,23 @@ PYTHON
 fi
 claim_exit "tiles may stay" 0 hopscotch run "${scene[@]}" grid.refine=4 --keep-tiles "output.tile=[32, 256]" -o kept.h5
 claim_equal "and tiles do not matter" "$(hash_of map.json)" "$(hash_of kept.json)"
+if /usr/bin/python3 -c 'import h5py, xarray' 2>/dev/null; then
+    /usr/bin/python3 - <<'PYTHON' || fail "the kept tiles' file is a virtual map of full resolution" "see above"
+import h5py
+import xarray as xr
+packed, kept = h5py.File("map.h5"), h5py.File("kept.h5")
+for layer in ("label", "outcome", "returns", "level"):
+    assert kept[layer].is_virtual and not packed[layer].is_virtual, layer
+    assert len(kept[layer].virtual_sources()) == 8, layer
+    assert (kept[layer][:] == packed[layer][:]).all(), layer
+    # what a coarse cell stands for takes next to no room
+    assert packed[layer].id.get_storage_size() < 0.1 * packed[layer].nbytes, layer
+for engine in ("h5netcdf", "netcdf4"):
+    opened = xr.open_dataset("kept.h5", engine=engine)
+    assert opened.label.shape == opened.level.shape == (256, 256)
+    assert opened.label.dims == ("height", "velocity"), opened.label.dims
+PYTHON
+fi
 rm kept.h5.tiles/tile_000000003.h5
 claim_exit "a lost tile is computed again" 0 hopscotch run "${scene[@]}" grid.refine=4 --keep-tiles \
     "output.tile=[32, 256]" -o kept.h5 --resume
