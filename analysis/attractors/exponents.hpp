@@ -20,6 +20,8 @@ struct orbit_exponents {
 
     /// The largest exponent is positive by five standard errors.
     bool is_positive() const { return is_complete && mean[0] > 0.0 && mean[0] > 5.0 * error[0]; }
+    /// Negative by as many: the orbit settles, however slowly.
+    bool is_negative() const { return is_complete && mean[0] < -5.0 * error[0]; }
     /// Positive, and grown far beyond what shear along a family of neutral orbits gives, whose
     /// tangents grow like the number of returns.
     bool is_chaotic() const { return is_positive() && mean[0] * returns > 4.0 * std::log(returns); }

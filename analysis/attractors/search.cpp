@@ -255,7 +255,8 @@ private:
             const int n_blocks = limits_.is_quick ? 16 : 32;
             const int block = limits_.is_quick ? 32 : 64;
             orbit_exponents exponents = exponents_of(map_, x, free_, n_blocks, block);
-            if (exponents.is_positive() && !exponents.is_chaotic()) {  // weak chaos, or shear
+            const bool is_open = exponents.is_complete && !exponents.is_negative();
+            if (is_open && !exponents.is_chaotic()) {  // weak chaos in bands, or shear
                 exponents = exponents_of(map_, x, free_, n_blocks, 8 * block);
             }
             if (!exponents.is_chaotic()) {

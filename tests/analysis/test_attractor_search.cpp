@@ -1,8 +1,10 @@
 // Attractors that nobody named: how many there are, of which kind and period, where, and with which
 // multipliers, against the model pages.
 #include "analysis/labels/plan.hpp"
+#include "host/run/audit.hpp"
 #include "host/scene/scene.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -134,6 +136,26 @@ TEST(attractor_search, one_label_stands_for_one_period_where_every_cell_is_a_poi
     ASSERT_EQ(here.n_ellipsoids, 2);  // one trap per point of the cycle
     for (const trap_ellipsoid& trap : here.ellipsoids) EXPECT_EQ(trap.label, 2);
     EXPECT_EQ(plan.attractors[1].name, "period 2");
+}
+
+// Transients are chaotic there: in double-double the orbit settles on another attractor than in
+// double, a cycle of period 4 beside one of period 8, and a chaotic set of eight thin bands
+// (exponent 0.045 per return) beside one of period 4.
+TEST(attractor_search, a_point_of_a_period_map_knows_the_attractors_next_to_its_start) {
+    for (const auto& [stride_period, thrust_time] :
+         {std::pair{0.2178125, 0.033072916666666667}, std::pair{0.1696875, 0.052552083333333333}}) {
+        const auto around = [](const char* axis, double x) {
+            return std::vector<std::string>{fmt::format("grid.axis.{}.cells=1", axis),
+                                            fmt::format("grid.axis.{}.min={}", axis, x - 0.001),
+                                            fmt::format("grid.axis.{}.max={}", axis, x + 0.001)};
+        };
+        std::vector<std::string> overrides = around("0", stride_period);
+        for (std::string& one : around("1", thrust_time)) overrides.push_back(std::move(one));
+        const scene scene = read_scene(
+            std::string(HOPSCOTCH_SOURCE) + "/configs/scenes/cham2007_periods.toml", overrides);
+        const label_plan plan = plan_labels(scene);
+        EXPECT_NE(judge(scene, plan, 0, 0).computed, 0) << stride_period;
+    }
 }
 
 // Energy is conserved, and no column of this section by itself: every orbit is one of a family, and
