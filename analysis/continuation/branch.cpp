@@ -1,6 +1,8 @@
 // Words for special points and ends.
 #include "analysis/continuation/branch.hpp"
 
+#include <fmt/format.h>
+
 namespace hopscotch {
 
 std::string_view name_of(special_kind kind) {
@@ -21,7 +23,9 @@ std::string_view name_of(special_kind kind) {
     return "";
 }
 
-std::string text_of(const end_of_branch& end) {
+namespace {
+
+std::string reason_of(const end_of_branch& end) {
     switch (end.why) {
         case branch_end::range:
             return "end of the range";
@@ -30,7 +34,7 @@ std::string text_of(const end_of_branch& end) {
         case branch_end::border:
             return "ends at a border: " + end.detail;
         case branch_end::root:
-            return "ends in a square root at " + end.detail;
+            return "ends in a root of the map";
         case branch_end::closed:
             return "closed";
         case branch_end::birth:
@@ -43,6 +47,14 @@ std::string text_of(const end_of_branch& end) {
             return "begins at its parent";
     }
     return "";
+}
+
+}  // namespace
+
+std::string text_of(const end_of_branch& end) {
+    if (!end.place) return reason_of(end);
+    return fmt::format("{}, at {:.14g} +- {:.1g}", reason_of(end), end.place->numbers[0],
+                       end.place->errors[0]);
 }
 
 }  // namespace hopscotch

@@ -2,7 +2,10 @@
 // stability, its event sequence or the branch itself changes.
 #pragma once
 
+#include "analysis/continuation/singular_end.hpp"
+
 #include <complex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,7 +48,7 @@ enum class branch_end {
     range,    // of the variable
     failure,  // orbits beyond have another outcome
     border,   // orbits beyond have other events, and none of them is periodic nearby
-    root,     // the map has a square root there, the multiplier no bound
+    root,     // the map has a root there, the multiplier no bound
     closed,
     birth,  // from an orbit of half the period
     lost,
@@ -55,7 +58,9 @@ enum class branch_end {
 
 struct end_of_branch {
     branch_end why = branch_end::lost;
-    std::string detail;  // the outcome or the events behind the end, the place of a root
+    std::string detail;  // the outcome or the events behind the end
+    std::optional<singular_end>
+        place;  // variable, then all columns, where a multiplier has no bound
 };
 
 std::string text_of(const end_of_branch& end);

@@ -43,12 +43,26 @@ std::string orbit_json(const branch_family& family, const orbit_on_branch& orbit
         json_numbers(real), json_numbers(imaginary), json_text(orbit.word));
 }
 
+/// `why`, and where a multiplier has no bound, the place that orbits further away lead to.
+std::string end_json(const branch_family& family, const end_of_branch& end) {
+    const std::string why = fmt::format("\"why\": {}", json_text(text_of(end)));
+    if (!end.place) return why;
+    const singular_end& place = *end.place;
+    const auto columns = [](const std::vector<double>& of) {
+        return json_numbers(std::vector<double>(of.begin() + 1, of.end()));
+    };
+    return fmt::format(
+        "{}, \"located\": {{\"{}\": {}, \"error\": {}, \"state\": {}, \"state_error\": {}}}", why,
+        family.variable.name(family.map), json_number(place.numbers[0]),
+        json_number(place.errors[0]), columns(place.numbers), columns(place.errors));
+}
+
 std::string branch_json(const branch_family& family, const branch& branch) {
     std::string text = fmt::format(
-        "  {{\"period\": {}, \"parent\": {}, \"orbits\": {},\n   \"first\": {{\"why\": {}, {}}},\n"
-        "   \"last\": {{\"why\": {}, {}}},\n   \"special\": [",
-        branch.period, branch.parent, branch.orbits.size(), json_text(text_of(branch.first)),
-        orbit_json(family, branch.orbits.front()), json_text(text_of(branch.last)),
+        "  {{\"period\": {}, \"parent\": {}, \"orbits\": {},\n   \"first\": {{{}, {}}},\n"
+        "   \"last\": {{{}, {}}},\n   \"special\": [",
+        branch.period, branch.parent, branch.orbits.size(), end_json(family, branch.first),
+        orbit_json(family, branch.orbits.front()), end_json(family, branch.last),
         orbit_json(family, branch.orbits.back()));
     for (std::size_t i = 0; i < branch.special.size(); ++i) {
         const special_point& special = branch.special[i];

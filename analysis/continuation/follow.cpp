@@ -51,7 +51,7 @@ private:
     double step_;
     branch path_;
     end_of_branch stop_;
-    std::vector<std::pair<double, double>> steep_;  // variable and largest multiplier of every step
+    std::vector<approach> way_;  // of every step: variable, columns and largest multiplier
 
     /// Whether the last step led through the start, in the start's direction.
     bool has_passed(const curve_point& before, const curve_point& start) const {
@@ -97,7 +97,9 @@ private:
         constexpr double dense = 1e-4;  // of the longest step: closer orbits are not kept
         here_ = next;
         orbit_ = orbit;
-        steep_.emplace_back(orbit_.variable, orbit_.multipliers.front().real());
+        way_.push_back({{orbit_.variable}, std::abs(orbit_.multipliers.front())});
+        way_.back().numbers.insert(way_.back().numbers.end(), orbit_.state.begin(),
+                                   orbit_.state.end());
         tests_ = tests_at(equation_, here_);
         half_ = half_gap(here_);
         const double apart = (here_.unknowns - path_.orbits.back().unknowns).norm();
@@ -148,7 +150,8 @@ private:
         const wall_crossing crossing = cross_wall(equation_, here_, orbit_.word);
         if (!crossing.beyond) {
             stop_ = crossing.end;
-            if (stop_.why == branch_end::lost) stop_ = root_end().value_or(stop_);
+            stop_.place = find_singular_end(way_);
+            if (stop_.why == branch_end::lost && stop_.place) stop_.why = branch_end::root;
             return false;
         }
         special_point special{.kind = special_kind::border,
@@ -165,22 +168,6 @@ private:
         path_.orbits.push_back(orbit_);
         step_ = std::max(crossing.length, 1e-3 * limits_.step);
         return true;
-    }
-
-    /// An end that is touched with a multiplier growing without bound, as at the edge of a gap: the
-    /// map has a square root there. The inverse multiplier falls to zero linearly in the variable.
-    std::optional<end_of_branch> root_end() const {
-        constexpr double large = 1e3;
-        const double last = std::abs(orbit_.multipliers.front());
-        if (last < large) return std::nullopt;
-        for (auto orbit = steep_.rbegin(); orbit != steep_.rend(); ++orbit) {
-            const double before = std::abs(orbit->second);
-            if (before > 0.5 * last) continue;
-            const double slope = (orbit_.variable - orbit->first) / (1.0 / last - 1.0 / before);
-            return end_of_branch{branch_end::root,
-                                 fmt::format("{:.17g}", orbit_.variable - slope / last)};
-        }
-        return std::nullopt;
     }
 
     void note_special_points(const curve_point& next, double length) {

@@ -3,6 +3,7 @@
 
 #include "analysis/periodic/return_equation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hopscotch {
@@ -59,6 +60,30 @@ std::optional<double> minimum_of(const branch_family& family, double variable, d
     return 0.5 * (left + right);
 }
 
+/// Whether no start fails at a value of the variable.
+bool is_whole(const branch_study& study, const sampled_column& starts, double variable) {
+    for (int i = 0; i < starts.n_samples; ++i) {
+        if (!value_at(study.family, starts.sample(i), variable)) return false;
+    }
+    return true;
+}
+
+bool is_among(const std::vector<gap_opening>& gaps, const gap_opening& gap) {
+    constexpr double same = 1e-9;
+    return std::any_of(gaps.begin(), gaps.end(), [&](const gap_opening& other) {
+        return std::abs(other.variable - gap.variable) <= same * std::abs(gap.variable);
+    });
+}
+
+/// Whether the start at the minimum fails on one side of the opening only.
+bool is_opening(const branch_family& family, const gap_opening& gap) {
+    constexpr double aside = 1e-9;
+    const auto has_return = [&](double share) {
+        return value_at(family, gap.state, gap.variable * share).has_value();
+    };
+    return has_return(1.0 - aside) != has_return(1.0 + aside);
+}
+
 }  // namespace
 
 std::optional<gap_opening> find_gap_opening(const branch_family& family, double from, double lowest,
@@ -85,6 +110,30 @@ std::optional<gap_opening> find_gap_opening(const branch_family& family, double 
         move = careful * step;
     }
     return std::nullopt;
+}
+
+std::vector<gap_opening> find_gap_openings(const branch_study& study) {
+    const branch_family& family = study.family;
+    if (family.columns.size() != 1) return {};
+    const auto column = static_cast<std::size_t>(family.columns[0]);
+    const sampled_column& starts = study.samples[column];
+    const branch_variable& over = family.variable;
+    std::vector<gap_opening> gaps;
+    double before = 0.0;
+    bool was_whole = false;
+    for (int i = 0; i < study.stations + 2; ++i) {  // the ends of the range and the stations
+        const double share = std::clamp((i - 0.5) / study.stations, 0.0, 1.0);
+        const double here = over.lowest + share * (over.highest - over.lowest);
+        const bool whole = is_whole(study, starts, here);
+        if (i > 0 && whole != was_whole) {
+            const auto gap =
+                find_gap_opening(family, whole ? here : before, starts.lowest, starts.highest);
+            if (gap && is_opening(family, *gap) && !is_among(gaps, *gap)) gaps.push_back(*gap);
+        }
+        before = here;
+        was_whole = whole;
+    }
+    return gaps;
 }
 
 }  // namespace hopscotch

@@ -3,9 +3,10 @@
 // stumbles). Near that point the map is a rounded V, P ~ edge + sqrt(D), with D smooth.
 #pragma once
 
-#include "analysis/continuation/branch_equation.hpp"
+#include "analysis/continuation/find_branches.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace hopscotch {
 
@@ -22,5 +23,11 @@ struct gap_opening {
 /// end
 std::optional<gap_opening> find_gap_opening(const branch_family& family, double from, double lowest,
                                             double highest, double edge = 0.0);
+
+/// All gaps that open within the range of a study's variable, found between two of its stations (or
+/// ends), of which one has starts that fail and the other has none. The edge is 0, as of angles and
+/// speeds of touchdown; every gap is checked to open there. None where more than one column is
+/// free.
+std::vector<gap_opening> find_gap_openings(const branch_study& study);
 
 }  // namespace hopscotch

@@ -266,14 +266,39 @@ TEST(continuation, ends_the_runners_upper_gait_where_the_leg_collapses) {
                {{"stance_gravity", "off"}});
     const auto branches =
         find_branches(study_over(map, "speed", 7.0, 11.0, {{8.0, 8.0, 1}, {0.0, 0.75, 12}}));
-    double highest = 0.0;
+    double end = 0.0;
+    double doubled_end = 0.0;
     for (const branch& branch : branches) {
-        if (branch.period == 1 && branch.first.why == branch_end::failure)
-            highest = branch.orbits.front().variable;
-        if (branch.period == 1 && branch.last.why == branch_end::failure)
-            highest = branch.orbits.back().variable;
+        for (const end_of_branch& one : {branch.first, branch.last}) {
+            if (!one.place) continue;
+            EXPECT_LT(one.place->errors[0], 1e-10);
+            (branch.period == 1 ? end : doubled_end) = one.place->numbers[0];
+        }
     }
-    EXPECT_NEAR(highest, 1.5 * std::sqrt(50.0), 1e-9);  // the slope is infinite there
+    EXPECT_NEAR(end, 1.5 * std::sqrt(50.0), 1e-10);
+    // where P(0) = x and D(x) = 0 (page, section 4), by 40-digit arithmetic
+    EXPECT_NEAR(doubled_end, 10.01868484871300556, 1e-10);
+}
+
+// p = 1 + s + s^2 with multipliers -1/(s + s^3), p = 2 + s with multipliers s^-1.5: roots at s = 0,
+// from orbits no closer than s = 1e-6
+TEST(continuation, extrapolates_to_an_end_where_the_multiplier_has_no_bound) {
+    std::vector<approach> way;
+    std::vector<approach> collapse;
+    for (double s = 0.5; s > 1e-6; s *= 0.6) {
+        way.push_back({{1.0 + s + s * s, std::exp(s)}, -1.0 / (s + s * s * s)});
+        collapse.push_back({{2.0 + s}, std::pow(s, -1.5)});
+    }
+    const auto root = find_singular_end(way);
+    ASSERT_TRUE(root);
+    EXPECT_NEAR(root->numbers[0], 1.0, 1e-13);
+    EXPECT_NEAR(root->numbers[1], 1.0, 1e-13);
+    EXPECT_LT(root->errors[0], 1e-12);
+    const auto other = find_singular_end(collapse);
+    ASSERT_TRUE(other);
+    EXPECT_NEAR(other->numbers[0], 2.0, 1e-13);
+    way.resize(8);  // the multiplier has not grown enough
+    EXPECT_FALSE(find_singular_end(way));
 }
 
 TEST(continuation, finds_longer_periods_from_starts) {

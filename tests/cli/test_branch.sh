@@ -23,6 +23,14 @@ claim_contains "curves have a table of their own" "curve" out.txt
 claim_equal "and a CSV" "curve,kind,period,amplitude,restitution,phase,relative_velocity" \
     "$(head -1 paddle_curves.csv)"
 
+claim_exit "a runner's gaits are followed" 0 hopscotch branch "$scenes/ghigliazza2005_fig8a_branch.toml"
+claim_equal "with the one speed at which a gap opens (page, section 11)" "9.58613" \
+    "$(grep -o '"gaps": .*' ghigliazza2005_fig8a_branch.json | sed -n 's/.*"speed": \([0-9.]*\).*/\1/p' |
+        xargs printf '%.5f')"
+claim_equal "listed once" 1 "$(grep -c 'gap opens' out.txt)"
+claim_contains "and the place of an end with its error" "at 10.60660171779" out.txt
+claim_contains "in the JSON too" '"located": {"speed": 10.60660171779' ghigliazza2005_fig8a_branch.json
+
 claim_exit "another question is refused" 3 hopscotch branch "$scenes/quickstart.toml"
 claim_contains "with the kind that is answered" '"branch"?' err.txt
 cat >angle.toml <<'TOML'
