@@ -32,6 +32,20 @@ public:
         for (std::size_t i = 0; i < trials_.size(); ++i) trials_[i] += other.trials_[i];
     }
 
+    /// The power laws of all boundaries and of each class.
+    ///
+    /// \param scales  in cells
+    scaling_by_class fit(const std::vector<std::uint64_t>& scales) const {
+        const std::vector<double> lengths(scales.begin(), scales.end());
+        scaling_by_class result;
+        result.whole = fit_power_law(lengths, of(n_classes_));
+        for (std::size_t k = 0; k < n_classes_; ++k) {
+            result.classes.push_back(fit_power_law(lengths, of(k)));
+        }
+        return result;
+    }
+
+private:
     /// [part][scale] of one class; `n_classes` stands for all boundaries.
     std::vector<std::vector<hit_count>> of(std::size_t which) const {
         std::vector<std::vector<hit_count>> result;
@@ -44,7 +58,6 @@ public:
         return result;
     }
 
-private:
     std::size_t n_scales_;
     std::size_t n_classes_;
     std::vector<std::uint64_t> hits_;

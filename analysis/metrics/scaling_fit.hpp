@@ -44,6 +44,13 @@ struct power_law {
 power_law fit_power_law(const std::vector<double>& scales,
                         const std::vector<std::vector<hit_count>>& parts);
 
+/// An exponent for all boundaries together, and one for the boundary of each class with the union
+/// of the others.
+struct scaling_by_class {
+    power_law whole;
+    std::vector<power_law> classes;
+};
+
 /// Mean of value / weight sums over parts and its jackknife error (NaN below two parts with
 /// weight).
 struct ratio_estimate {

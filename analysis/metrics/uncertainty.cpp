@@ -64,13 +64,7 @@ scaling_by_class uncertainty_of(const class_grid& grid) {
 #pragma omp critical
         counts.add(own);
     }
-    const std::vector<double> scales(steps.begin(), steps.end());
-    scaling_by_class result;
-    result.whole = fit_power_law(scales, counts.of(grid.classes.size()));
-    for (std::size_t k = 0; k < grid.classes.size(); ++k) {
-        result.classes.push_back(fit_power_law(scales, counts.of(k)));
-    }
-    return result;
+    return counts.fit(steps);
 }
 
 }  // namespace hopscotch::metrics

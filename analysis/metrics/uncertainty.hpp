@@ -7,13 +7,6 @@
 
 namespace hopscotch::metrics {
 
-/// An exponent for all boundaries together, and one for the boundary of each class with the union
-/// of the others.
-struct scaling_by_class {
-    power_law whole;
-    std::vector<power_law> classes;
-};
-
 /// A cell is uncertain at s if one of the cells s steps away along any axis has another class. The
 /// fraction of uncertain cells goes like s^alpha, alpha = (axes) - (dimension of the boundary); 1
 /// for a smooth boundary. s = 1, 2, 3, 4, 6, 8 ... up to 1/16 of the shortest axis, but 4 where
