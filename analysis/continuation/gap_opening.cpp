@@ -60,12 +60,13 @@ std::optional<double> minimum_of(const branch_family& family, double variable, d
     return 0.5 * (left + right);
 }
 
-/// Whether no start fails at a value of the variable.
-bool is_whole(const branch_study& study, const sampled_column& starts, double variable) {
+/// How many starts have a return at a value of the variable.
+int n_returns(const branch_study& study, const sampled_column& starts, double variable) {
+    int n = 0;
     for (int i = 0; i < starts.n_samples; ++i) {
-        if (!value_at(study.family, starts.sample(i), variable)) return false;
+        if (value_at(study.family, starts.sample(i), variable)) ++n;
     }
-    return true;
+    return n;
 }
 
 bool is_among(const std::vector<gap_opening>& gaps, const gap_opening& gap) {
@@ -120,18 +121,18 @@ std::vector<gap_opening> find_gap_openings(const branch_study& study) {
     const branch_variable& over = family.variable;
     std::vector<gap_opening> gaps;
     double before = 0.0;
-    bool was_whole = false;
+    int n_before = 0;
     for (int i = 0; i < study.stations + 2; ++i) {  // the ends of the range and the stations
         const double share = std::clamp((i - 0.5) / study.stations, 0.0, 1.0);
         const double here = over.lowest + share * (over.highest - over.lowest);
-        const bool whole = is_whole(study, starts, here);
-        if (i > 0 && whole != was_whole) {
-            const auto gap =
-                find_gap_opening(family, whole ? here : before, starts.lowest, starts.highest);
+        const int n_here = n_returns(study, starts, here);
+        if (i > 0 && n_here != n_before) {
+            const auto gap = find_gap_opening(family, n_here > n_before ? here : before,
+                                              starts.lowest, starts.highest);
             if (gap && is_opening(family, *gap) && !is_among(gaps, *gap)) gaps.push_back(*gap);
         }
         before = here;
-        was_whole = whole;
+        n_before = n_here;
     }
     return gaps;
 }

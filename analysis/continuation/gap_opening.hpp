@@ -25,7 +25,7 @@ std::optional<gap_opening> find_gap_opening(const branch_family& family, double 
                                             double highest, double edge = 0.0);
 
 /// All gaps that open within the range of a study's variable, found between two of its stations (or
-/// ends), of which one has starts that fail and the other has none. The edge is 0, as of angles and
+/// ends), of which one has more starts with a return than the other. The edge is 0, as of angles and
 /// speeds of touchdown; every gap is checked to open there. None where more than one column is
 /// free.
 std::vector<gap_opening> find_gap_openings(const branch_study& study);

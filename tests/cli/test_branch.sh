@@ -31,6 +31,11 @@ claim_equal "listed once" 1 "$(grep -c 'gap opens' out.txt)"
 claim_contains "and the place of an end with its error" "at 10.60660171779" out.txt
 claim_contains "in the JSON too" '"located": {"speed": 10.60660171779' ghigliazza2005_fig8a_branch.json
 
+claim_exit "gaits with gravity in stance are followed" 0 hopscotch branch \
+    "$scenes/ghigliazza2005_gravity_branch.toml"
+claim_equal "with the gap of the page's table" "8.4781" \
+    "$(grep 'gap opens' out.txt | awk '{print $3}' | xargs printf '%.4f')"
+
 claim_exit "another question is refused" 3 hopscotch branch "$scenes/quickstart.toml"
 claim_contains "with the kind that is answered" '"branch"?' err.txt
 cat >angle.toml <<'TOML'
