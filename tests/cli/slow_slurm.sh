@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Slurm's own --signal before a real time limit: an MPI job and a job array finish their tiles, are queued
-# again and go on to the map of one process. Takes some minutes: Slurm counts time limits in them.
+# again and go on to the map of one process. Takes some minutes: Slurm counts time limits in them. (One run,
+# two cores with a load of 10 to 14: the MPI job was queued again after 76 s with 485 of 2000 tiles, the
+# array after 61 s with 538; 17 min 19 s in all.)
 source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
 source "$source_folder/tests/cli/slurm_node.sh"
 export HOPSCOTCH_HOME=$source_folder HOPSCOTCH_PROGRAM=$program

@@ -12,7 +12,7 @@ done
 [ "$(id -u)" = 0 ] || skip "slurmd starts jobs as their users, for which it must be root"
 
 cluster=$scratch/cluster
-mkdir -p -m 755 "$cluster"/{munge,state,spool}
+mkdir -p -m 755 "$cluster"/{munge,state,spool,tmp}
 node=$(hostname -s)
 port=$((20000 + RANDOM % 20000))
 export SLURM_CONF=$cluster/slurm.conf
@@ -51,6 +51,9 @@ SwitchType=switch/none
 MpiDefault=none
 ReturnToService=2
 KillWait=5
+MinJobAge=86400
+TmpFS=$cluster/tmp
+FirstJobId=$((1 + RANDOM))
 SchedulerParameters=sched_interval=1,batch_sched_delay=0
 NodeName=$node NodeAddr=127.0.0.1 CPUs=4 State=UNKNOWN
 PartitionName=all Nodes=$node Default=YES MaxTime=INFINITE State=UP OverSubscribe=NO
@@ -93,12 +96,14 @@ says() { grep -qs -- "$2" "$1"; }                  # FILE TEXT
 job_facts() { scontrol show job "$1" -o 2>/dev/null; }  # JOB: everything, on one line
 has_fact() { job_facts "$1" | grep -qE " ($2)( |$)"; }  # JOB PATTERN of a fact, e.g. Restarts=1
 has_ended() {  # JOB, or the number of an array: no task of it waits or runs
-    case $(squeue -h -j "$1" -t all -o %T 2>/dev/null | sort -u | tr '\n' ' ') in
-        *PENDING* | *RUNNING* | *COMPLETING* | *CONFIGURING* | *REQUEUE* | *SUSPENDED*) return 1 ;;
+    local states
+    states=$(squeue -h -j "$1" -t all -o %T 2>/dev/null) || return 1  # a controller that does not answer
+    case $states in
+        "" | *PENDING* | *RUNNING* | *COMPLETING* | *CONFIGURING* | *REQUEUE* | *SUSPENDED*) return 1 ;;
     esac
 }
 
-wait_for_job() {  # JOB [SECONDS]: until it is no longer known or has ended
+wait_for_job() {  # JOB [SECONDS]: until it has ended
     wait_until "${2:-300}" has_ended "$1" || fail "job $1 ends" "it is still $(squeue -h -j "$1" -t all)"
 }
 

@@ -27,6 +27,10 @@ if srun --mpi=list 2>&1 | grep -q pmix; then
     claim_equal "ranks started by srun give the map of one process" "$hash" "$(hash_of srun.json)"
     claim_contains "and work together" '"ranks": 3' srun.json
 fi
+job=$(HOPSCOTCH_LAUNCHER=true sbatch --parsable --ntasks=2 "$slurm/mpi.sbatch" "${small[@]}" -o never.h5)
+wait_for_job "$job"
+claim_contains "a launcher that starts no rank and says nothing is no success" "not finished" "slurm-$job.out"
+has_fact "$job" "JobState=FAILED" || fail "and fails its job" "$(job_facts "$job")"
 if command -v mpirun >/dev/null; then
     job=$(HOPSCOTCH_LAUNCHER=mpirun sbatch --parsable --ntasks=3 "$slurm/mpi.sbatch" "${small[@]}" -o mpirun.h5)
     wait_for_job "$job"
@@ -69,6 +73,6 @@ claim_equal "with the map of one process" "$(hash_of whole.json)" "$(hash_of tas
 job=$(HOPSCOTCH_MARGIN=10000 sbatch --parsable --time=1:00 --ntasks=2 "$slurm/mpi.sbatch" "${small[@]}" -o late.h5)
 wait_until 120 says "slurm-$job.out" "queued again"
 claim_contains "a job without time left stops in time" "queued again" "slurm-$job.out"
-[ $failed = 0 ] || { squeue -t all && tail -n 12 "$cluster/slurmctld.log" "slurm-$job.out"; }
+[ $failed = 0 ] || { squeue -t all && tail -n 12 "$cluster/slurmctld.log" slurm-*.out; }
 scancel "$job"
 exit $failed
