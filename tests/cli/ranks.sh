@@ -16,11 +16,11 @@ hash_of() { grep '"hash"' "$1" | cut -d'"' -f4; }
 n_tiles_in() { find "$1" -name 'tile_*.h5' 2>/dev/null | wc -l; }
 
 wait_for_tiles() {  # FOLDER N: until more than N tiles are there
-    for _ in $(seq 600); do
+    for _ in $(seq 3000); do  # long for a busy machine
         [ "$(n_tiles_in "$1")" -gt "$2" ] && return
         sleep 0.02
     done
-    fail "tiles appear in $1" "$(n_tiles_in "$1") after 12 s"
+    fail "tiles appear in $1" "$(n_tiles_in "$1") after a minute"
 }
 
 # processes of the program that the launcher MPIRUN (its process) has started
