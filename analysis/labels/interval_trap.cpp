@@ -2,9 +2,12 @@
 #include "analysis/labels/interval_trap.hpp"
 
 #include "analysis/labels/sampling.hpp"
+#include "analysis/traps/proved_interval.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace hopscotch {
 namespace {
@@ -44,6 +47,22 @@ double slope_at(const return_map_samples& map, double x, int returns) {
 }
 
 }  // namespace
+
+std::string interval_trap::evidence() const {
+    if (!is_proved) return "sampled and bisected";
+    if (unproved_length == 0.0) return "proved by enclosures";
+    return fmt::format("proved by enclosures, but for a length of {:.1g} where events change order",
+                       unproved_length);
+}
+
+void prove(const map_point& map, interval_trap& trap) {
+    const auto proved = prove_interval_trap(map, trap.lowest, trap.highest);
+    if (!proved) return;
+    trap.lowest = proved->lowest;
+    trap.highest = proved->highest;
+    trap.is_proved = true;
+    trap.unproved_length = proved->uncovered;
+}
 
 void identify_attractor(const return_map_samples& map, double start, interval_trap& trap) {
     double x = map.at(start, n_transient);

@@ -6,9 +6,11 @@
 
 #include "analysis/attractors/attractor_kind.hpp"
 #include "analysis/labels/return_map_samples.hpp"
+#include "analysis/periodic/map_point.hpp"
 #include "kernels/contract/info.hpp"
 
 #include <optional>
+#include <string>
 
 namespace hopscotch {
 
@@ -17,9 +19,14 @@ struct interval_trap {
     double lowest = 0.0;
     double highest = 0.0;
     attractor_kind kind = attractor_kind::fixed_point;
-    int period = 1;              // 0 = aperiodic
-    std::vector<double> points;  // of the cycle, rising; for chaos: hull of the attractor
-    double multiplier = 0.0;     // of the cycle; for chaos the exponent per return
+    int period = 1;                // 0 = aperiodic
+    std::vector<double> points;    // of the cycle, rising; for chaos: hull of the attractor
+    double multiplier = 0.0;       // of the cycle; for chaos the exponent per return
+    bool is_proved = false;        // enclosures show that the map sends it into itself
+    double unproved_length = 0.0;  // of parts about changes of the order of events
+
+    /// How it is known, for the table of attractors.
+    std::string evidence() const;
 };
 
 /// The trap on one branch, if there is one.
@@ -30,6 +37,11 @@ struct interval_trap {
 /// \return        nothing where no orbit stays on the branch (or after a boundary crisis)
 std::optional<interval_trap> find_interval_trap(const return_map_samples& map,
                                                 const map_branch& branch, double floor);
+
+/// Lets enclosures prove that the map sends the trap into itself. What is proved replaces it: the
+/// ends move inward by some roundings. Without a proof (neutral ends, chatter, integrated flows)
+/// it stays as it is.
+void prove(const map_point& map, interval_trap& trap);
 
 /// What a critical orbit settles on inside an invariant interval.
 ///

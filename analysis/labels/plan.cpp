@@ -5,6 +5,7 @@
 #include "analysis/labels/label_colours.hpp"
 #include "analysis/labels/one_sided.hpp"
 #include "analysis/labels/period_plan.hpp"
+#include "analysis/labels/plan_points.hpp"
 #include "analysis/labels/point_search.hpp"
 #include "analysis/labels/searched_plan.hpp"
 #include "host/scene/grid.hpp"
@@ -127,10 +128,13 @@ attractor_row row_of(const found_trap& found, int label) {
     }
     row.multipliers_real = {found.trap.multiplier};
     row.multipliers_imaginary = {0.0};
-    row.trap = fmt::format("[{:.17g}, {:.17g}] at parameter point {}", found.trap.lowest,
-                           found.trap.highest, found.point);
+    row.trap = fmt::format("[{:.17g}, {:.17g}] at parameter point {}, {}", found.trap.lowest,
+                           found.trap.highest, found.point, found.trap.evidence());
     return row;
 }
+
+/// Proofs take longer than the search; maps of more parameter points do without.
+constexpr std::size_t most_proved_points = 64;
 
 label_plan plan_by_intervals(const scene& scene) {
     label_plan plan;
@@ -141,7 +145,14 @@ label_plan plan_by_intervals(const scene& scene) {
     const auto points = parameter_points(scene, plan.point_axes);
     std::vector<std::vector<found_trap>> found(points.size());
 #pragma omp parallel for schedule(dynamic)
-    for (std::size_t i = 0; i < points.size(); ++i) found[i] = traps_at(scene, i, points[i]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        found[i] = traps_at(scene, i, points[i]);
+        if (points.size() > most_proved_points) continue;
+        const map_point map = plan_points(scene, plan.point_axes).map_at(i);
+        for (found_trap& one : found[i]) {
+            if (one.trap.kind != attractor_kind::resting) prove(map, one.trap);
+        }
+    }
 
     std::vector<found_trap> kinds;  // one example of each, in canonical order
     std::size_t most = 0;

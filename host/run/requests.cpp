@@ -41,13 +41,6 @@ kernel_kind kind_of(const scene& scene) {
     return is_chaos_map(scene) ? kernel_kind::tangent : kernel_kind::plain;
 }
 
-/// To the kernels a table of one point says that its traps are the first ones; any other single
-/// point is therefore written twice.
-column_source source_of_points(std::vector<double>& points, std::uint64_t stride) {
-    if (points.size() == 1 && points[0] != 0.0) points.push_back(points[0]);
-    return {points.data(), stride, points.size()};
-}
-
 /// One entry per run of neighbouring cells with the same parameter point.
 void add_points(cell_request& result, const scene& scene, const label_plan& plan,
                 const tile_box& box) {
@@ -59,7 +52,7 @@ void add_points(cell_request& result, const scene& scene, const label_plan& plan
     for (std::uint64_t i = 0; i < n; ++i) {
         points[i] = static_cast<double>(point_index(scene, plan, coordinates_in(box, i * stride)));
     }
-    result.request.trap_point = source_of_points(points, stride);
+    result.request.trap_point = {points.data(), stride, points.size()};
     result.tables.push_back(std::move(points));
 }
 
@@ -142,7 +135,7 @@ cell_request request_of(const scene& scene, const label_plan& plan,
     for (std::size_t axis = 0; axis < scene.axes.size(); ++axis) {
         source_of(result.request, scene.axes[axis]) = {values[axis].data(), 1, cells.size()};
     }
-    result.request.trap_point = source_of_points(values.back(), 1);
+    result.request.trap_point = {values.back().data(), 1, values.back().size()};
     result.tables = std::move(values);
     return result;
 }

@@ -20,6 +20,9 @@
 //       // optional: how many leading members of a lane `begin` derives from parameters and options
 //       // alone and nothing changes later; where no parameter varies they are not moved with a
 //       lane static constexpr int n_parameter_fields = 0;
+//       // optional: so many leading variants are cheap maps, beside which calls count; a step of
+//       // their tangent ensemble is compiled into one stretch of code
+//       static constexpr int n_cheap_variants = 0;
 //       // optional, where a variant integrates a flow: takes the tolerance asked for (see
 //       // kernels/integrators/taylor.hpp; 0 = the arithmetic's own). Called before `begin`, which
 //       // must leave it alone.
@@ -117,6 +120,13 @@ inline constexpr int parameter_fields_of = 0;
 template <class Model>
 requires requires { Model::n_parameter_fields; }
 inline constexpr int parameter_fields_of<Model> = Model::n_parameter_fields;
+
+/// Leading variants whose steps cost little beside a call.
+template <class Model>
+inline constexpr int cheap_variants_of = 0;
+template <class Model>
+requires requires { Model::n_cheap_variants; }
+inline constexpr int cheap_variants_of<Model> = Model::n_cheap_variants;
 
 template <class Model, int Variant, class Real>
 struct choice_of_lane {

@@ -133,8 +133,11 @@ private:
         Real columns[most_columns];
         Model::read_state(at.motion, request_.end_section, columns);
         if (request_.trap_point.size == 1) {  // the same traps for every lane
+            const auto point = static_cast<std::uint64_t>(request_.trap_point.at(0));
+            const trap_ellipsoid* traps =
+                request_.ellipsoids + point * static_cast<std::uint64_t>(request_.n_ellipsoids);
             for (int i = request_.n_ellipsoids; i-- > 0;) {
-                const trap_ellipsoid& trap = request_.ellipsoids[i];
+                const trap_ellipsoid& trap = traps[i];
                 label = select(wanted & holds(trap, columns), Real(static_cast<double>(trap.label)),
                                label);
             }

@@ -69,6 +69,38 @@ HOPSCOTCH_DEVICE inline Real product(const series<Real>& a, const series<Real>& 
     return sum;
 }
 
+/// Coefficients n and n + 1 of the product a b, as far as they are known with a and b up to n.
+template <class Real>
+struct two_coefficients {
+    Real first;
+    Real rest;  // of the second: without a_0 b_{n+1} and a_{n+1} b_0
+};
+
+/// Both sums in one pass, which loads every coefficient once for two fused operations.
+///
+/// \param n  even
+template <class Real>
+HOPSCOTCH_DEVICE inline two_coefficients<Real> products(const series<Real>& a,
+                                                        const series<Real>& b, int n) {
+    Real later = b.c[n];
+    two_coefficients<Real> sum{a.c[0] * later, Real(0.0)};
+    for (int i = 1; i <= n; ++i) {
+        const Real ai = a.c[i];
+        const Real now = b.c[n - i];
+        sum.first = fma(ai, now, sum.first);
+        sum.rest = fma(ai, later, sum.rest);
+        later = now;
+    }
+    return sum;
+}
+
+/// Coefficient n of the product, where `rest` is what `products` left of it.
+template <class Real>
+HOPSCOTCH_DEVICE inline Real completed(const Real& rest, const series<Real>& a,
+                                       const series<Real>& b, int n) {
+    return fma(a.c[n], b.c[0], fma(a.c[0], b.c[n], rest));
+}
+
 /// Coefficient n of a^2.
 template <class Real>
 HOPSCOTCH_DEVICE inline Real square(const series<Real>& a, int n) {
@@ -79,11 +111,21 @@ HOPSCOTCH_DEVICE inline Real square(const series<Real>& a, int n) {
     return n % 2 == 0 ? fma(a.c[n / 2], a.c[n / 2], twice) : twice;
 }
 
+/// 1/n, n = 0 ... 22: divisions of single numbers would hold a pack up.
+HOPSCOTCH_DEVICE inline double reciprocal(int n) {
+    static constexpr double reciprocals[] = {
+        0.0,        1.0,        1.0 / 2.0,  1.0 / 3.0,  1.0 / 4.0,  1.0 / 5.0,
+        1.0 / 6.0,  1.0 / 7.0,  1.0 / 8.0,  1.0 / 9.0,  1.0 / 10.0, 1.0 / 11.0,
+        1.0 / 12.0, 1.0 / 13.0, 1.0 / 14.0, 1.0 / 15.0, 1.0 / 16.0, 1.0 / 17.0,
+        1.0 / 18.0, 1.0 / 19.0, 1.0 / 20.0, 1.0 / 21.0, 1.0 / 22.0};
+    return reciprocals[n];
+}
+
 /// x / n for the recurrences a_n = x / n.
 template <class Real>
 HOPSCOTCH_DEVICE inline Real over(const Real& x, int n) {
     if constexpr (lane_traits<Real>::rounding > 0x1p-60) {
-        return x * Real(1.0 / static_cast<double>(n));
+        return x * Real(reciprocal(n));
     } else {
         return x / Real(static_cast<double>(n));
     }
@@ -98,12 +140,43 @@ HOPSCOTCH_DEVICE inline Real evaluate(const series<Real>& a, const Time& t) {
     return sum;
 }
 
+/// What a polynomial adds to its value at 0, over t.
+template <class Real, class Time>
+HOPSCOTCH_DEVICE inline Real mean_rate(const series<Real>& a, const Time& t) {
+    const Real at(t);
+    Real sum = a.c[order<Real>];
+    for (int n = order<Real> - 1; n >= 1; --n) sum = fma(sum, at, a.c[n]);
+    return sum;
+}
+
 /// The same polynomial without derivatives.
+template <without_derivatives Real>
+HOPSCOTCH_DEVICE inline const series<Real>& primal_series(const series<Real>& a) {
+    return a;
+}
 template <class Real>
 HOPSCOTCH_DEVICE inline series<primal_of<Real>> primal_series(const series<Real>& a) {
     series<primal_of<Real>> result;
     for (int n = 0; n <= order<Real>; ++n) result.c[n] = primal(a.c[n]);
     return result;
+}
+
+/// x^(1/n), good to 2e-4: the length of a step need not be better known.
+///
+/// \param x  > 0; 0 and infinity give a number below 2^-40 and above 2^40 for n < 24
+template <class Real>
+HOPSCOTCH_DEVICE inline Real rough_root(const Real& x, int n) {
+    if constexpr (binary64_lane<Real>) {
+        // cubics through log2 on (1, 2) and 2^x on (0, 1), errors 8e-4 and 1.1e-4
+        const Real logarithm =
+            exponent(x) + polynomial(mantissa(x), -2.136232, 3.011162, -1.026805, 0.1527003);
+        const Real power = over(logarithm, n);
+        const Real whole = floor(power);
+        return polynomial(power - whole, 0.9999003, 0.6963248, 0.2246932, 0.07896726) *
+               power_of_two(whole);
+    } else {
+        return exp(over(log(x), n));
+    }
 }
 
 /// Collects the tails of the series that a step carries and turns them into its length.
@@ -126,17 +199,14 @@ public:
                                             const primal_of<Real>& longest) const {
         // proofs do not hold the remainder
         if constexpr (requires { note_truncation(tolerance); }) note_truncation(tolerance);
-        const plain from_last = log_of_root(tolerance / last_, order<Real>);
-        const plain from_before = log_of_root(tolerance / before_last_, order<Real> - 1);
-        const plain shorter = exp(smaller(from_before, from_last));
+        const plain from_last = rough_root(tolerance / last_, order<Real>);
+        const plain from_before = rough_root(tolerance / before_last_, order<Real> - 1);
+        const plain shorter = smaller(from_before, from_last);
         return select(shorter < longest, shorter, longest) + doubtful_;
     }
 
 private:
     using plain = primal_of<Real>;
-    HOPSCOTCH_DEVICE static plain log_of_root(const plain& ratio, int n) {
-        return over(log(ratio), n);
-    }
 
     plain last_ = plain(0.0);
     plain before_last_ = plain(0.0);

@@ -52,6 +52,7 @@ struct mirror_line {
 
     /// Variant 0 leaves out the times.
     static constexpr int n_variants = 2;
+    static constexpr int n_cheap_variants = n_variants;
     static int variant(const variant_query& scene) { return scene.wants_time ? 1 : 0; }
     static constexpr int full_variant(int) { return 1; }
     static constexpr std::string_view refusal(const double*, const int*) { return {}; }

@@ -85,6 +85,7 @@ struct openloop_hopper {
         return section != openloop::strobe && column == 0 ? parameter[stride_period] : 0.0;
     }
 
+    static constexpr int n_parameter_fields = 8;
     template <class Real>
     using lane = openloop::hopper_lane<Real>;
 

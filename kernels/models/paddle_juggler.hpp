@@ -65,6 +65,7 @@ struct paddle_juggler {
         return column == 0 ? 0x1.921fb54442d18p+2 : 0.0;
     }
 
+    static constexpr int n_parameter_fields = 3;
     template <class Real>
     struct lane {
         Real amplitude;

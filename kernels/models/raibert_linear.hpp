@@ -5,6 +5,7 @@
 
 #include "kernels/contract/model.hpp"
 #include "kernels/raibert/damped_spring.hpp"
+#include "kernels/raibert/parameters.hpp"
 #include "kernels/raibert/thrust.hpp"
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
@@ -16,12 +17,12 @@ struct raibert_linear {
         {"liftoff_height", "chi_l", "m", 0.5, any_finite,
          "height of the body at touchdown and lift-off"},
         {"stiffness", "eta_1", "1/s^2", 46.5, positive, "spring of the stance over body mass"},
-        {"thrust", "tau", "m/s^2", 41.86, positive, "force of the thrust"},
-        {"thrust_time", "delta", "s", 0.01, non_negative, "duration of the thrust"},
-        {"friction", "gamma", "1/s", 2.33, non_negative, "viscous friction in stance"},
-        {"stance_gravity", "g", "m/s^2", 10.0, non_negative, "gravity in stance"},
-        {"flight_gravity", "g_f", "m/s^2", 10.0, positive, "gravity in flight"},
-        {"leg_mass_ratio", "mu'", "1", 0.0, non_negative, "mass of the leg over mass of the body"},
+        raibert::row::thrust,
+        raibert::row::thrust_time,
+        raibert::row::friction,
+        raibert::row::stance_gravity,
+        raibert::row::flight_gravity,
+        raibert::row::leg_mass_ratio,
         {"rest_height", "chi_0", "m", 0.215, any_finite, "height at which the spring is relaxed"},
         {"thrust_gravity", "", "m/s^2", __builtin_nan(""), any_finite,
          "gravity during the thrust; where not given, stance_gravity"},
@@ -75,7 +76,8 @@ struct raibert_linear {
         .outcomes = outcomes,
         .trace_columns = state};
 
-    static constexpr contact_info contact{"flight", "touchdown", "m", "m/s", "foot above the ground"};
+    static constexpr contact_info contact{"flight", "touchdown", "m", "m/s",
+                                          "foot above the ground"};
     static contact_gap gap(const double* columns, const double* parameters, const int*) {
         return {columns[0] - parameters[liftoff_height], columns[1]};
     }
@@ -89,6 +91,7 @@ struct raibert_linear {
     }
     static constexpr std::string_view refusal(const double*, const int*) { return {}; }
 
+    static constexpr int n_parameter_fields = 10;
     template <class Real>
     struct lane {
         Real height;  // chi_l
@@ -103,6 +106,7 @@ struct raibert_linear {
         Real leg_share;    // 1 / (1 + mu')
         Real speed;        // at touchdown
         Real depth;        // of the next bottom below lift-off height
+        Real square;       // of the speed at which that bottom's energy would lift off
         Real compression;  // time from touchdown to that bottom
         Real pending;      // outcome of the stance ahead, where it has no bottom
         Real section;
@@ -139,11 +143,13 @@ struct raibert_linear {
         if (section == at_bottom) {
             lane.depth = safe;
             lane.speed = one;
+            lane.square = safe * fma(lane.stiffness, safe, Real(-2.0) * pull_at_liftoff(lane));
         } else {
             lane.speed =
                 section == at_touchdown ? safe : sqrt(Real(2.0) * lane.flight_gravity * safe);
             const stance_bottom<Real> bottom = compress<Variant>(lane, lane.speed);
             lane.depth = bottom.depth;
+            lane.square = lane.speed * lane.speed;
             lane.compression = bottom.time;
             lane.pending = select(bottom.exists, zero, code_of<Real>(outcome::sinks));
         }
@@ -198,6 +204,7 @@ struct raibert_linear {
         ended = select(lost, code_of<Real>(outcome::not_finite), ended);
         const mask_of<Real> moves = returned & !lost;
         lane.speed = select(moves, touchdown, lane.speed);
+        lane.square = select(moves, touchdown * touchdown, lane.square);
         lane.depth = select(moves, bottom.depth, lane.depth);
         lane.compression = select(moves, bottom.time, lane.compression);
         lane.pending = select(moves & !bottom.exists, code_of<Real>(outcome::sinks), lane.pending);
@@ -286,6 +293,7 @@ private:
             end.pull = lane.gravity - lane.thrust;
         }
         decompress<Variant>(lane, end, pushes);
+        if constexpr (Variant != 2) conserve_energy(lane, end, moved);
         if (any(end.is_cut)) {
             const Real t =
                 raibert::thrust_duration(lane.friction, lane.lift, lane.depth, end.is_cut);
@@ -297,6 +305,20 @@ private:
             end.exists = end.exists | end.is_cut;
         }
         return end;
+    }
+
+    /// Without friction the lift-off speed is the touchdown speed, changed by the work of the
+    /// thrust: a weak thrust keeps the digits that the stance's larger energies would cost.
+    template <class Real>
+    HOPSCOTCH_DEVICE static void conserve_energy(const lane<Real>& lane, lift_off<Real>& end,
+                                                 const Real& moved) {
+        const Real zero(0.0);
+        const Real pull = fma(-lane.stiffness, lane.depth, pull_at_liftoff(lane));  // at the bottom
+        const Real gained =
+            fma(moved, fma(lane.stiffness, moved, Real(2.0) * pull), end.velocity * end.velocity);
+        const Real square = lane.square + gained;
+        const mask_of<Real> known = end.exists & (lane.friction == zero) & (square > zero);
+        end.speed = select(known, sqrt(select(known, square, Real(1.0))), end.speed);
     }
 
     /// Fills in rise_time, speed and exists. Without lift-off rise_time ends at the top, where

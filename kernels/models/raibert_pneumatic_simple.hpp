@@ -7,6 +7,7 @@
 #include "kernels/elementary/elementary.hpp"
 #include "kernels/events/bracketed_root.hpp"
 #include "kernels/raibert/dawson.hpp"
+#include "kernels/raibert/parameters.hpp"
 #include "kernels/unimodal/doubling_cascade.hpp"
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
@@ -24,9 +25,9 @@ struct raibert_pneumatic_simple {
          "height of the body at touchdown and lift-off"},
         {"stiffness", "eta_1", "m^2/s^2", 5.81, positive,
          "air spring in compression, force eta_1 / chi"},
-        {"thrust", "tau", "m/s^2", 41.86, positive, "force of the thrust at the bottom"},
+        raibert::row::thrust,
         {"flight_gravity", "g", "m/s^2", 10.0, positive, "gravity in flight"},
-        {"leg_mass_ratio", "mu'", "1", 0.0, non_negative, "mass of the leg over mass of the body"},
+        raibert::row::leg_mass_ratio,
         {"gain", "alpha", "1", __builtin_nan(""), positive,
          "thrust liftoff_height / (stiffness (1 + mu')^2); replaces thrust and leg mass where "
          "given"},
@@ -81,6 +82,7 @@ struct raibert_pneumatic_simple {
 
     /// Variant 0 leaves out the times.
     static constexpr int n_variants = 2;
+    static constexpr int n_cheap_variants = n_variants;
     static int variant(const variant_query& scene) { return scene.wants_time ? 1 : 0; }
     static constexpr int full_variant(int) { return 1; }
     static constexpr std::string_view refusal(const double*, const int*) { return {}; }

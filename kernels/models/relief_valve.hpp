@@ -54,6 +54,7 @@ struct relief_valve {
     static int variant(const variant_query&) { return 0; }
     static constexpr std::string_view refusal(const double*, const int*) { return {}; }
 
+    static constexpr int n_parameter_fields = 5;
     template <class Real>
     struct lane {
         Real damping, offset, gain, restitution, flow;

@@ -129,9 +129,9 @@ HOPSCOTCH_DEVICE inline Real first_turning_time(const solution<AnyDamping, Real>
     const Real frequency = x.spring.frequency;
     const Real slip = frequency * x.rate;
     const Real pull = fma(x.spring.damping, x.rate, x.distance());
-    const Real phase = atan2(slip, pull);
-    const Real opposite = atan2(-slip, -pull);  // phase + pi, without its cancellation
-    const Real turn = select(phase > zero, phase, select(opposite > zero, opposite, pi<Real>()));
+    // a falling body turns half a turn after its phase, which is that of the opposite point
+    const Real phase = atan2(abs(slip), select(slip < zero, -pull, pull));
+    const Real turn = select((phase > zero) & !(slip == zero), phase, pi<Real>());
     Real time = turn / frequency;
     if constexpr (AnyDamping) {
         const Real ratio = slip / pull;
@@ -177,21 +177,27 @@ HOPSCOTCH_DEVICE inline crossing<Real> first_rise(const solution<AnyDamping, Rea
     const plain high = smaller(select(sinks, turning + half_turn, turning), horizon);
     // Halley's method: the oscillator's equation gives the second derivative for nothing. Stopped
     // like Newton's, because next to a graze it is as slow.
+    const auto acceleration = [&](const value_and_slope<plain>& there) {
+        return -fma(plain(2.0) * value.spring.damping, there.slope, there.value - value.resting);
+    };
     const auto rising = [&](const plain& s) {
         const value_and_slope<plain> there = value.at(s);
         const plain slope = there.slope;
-        const plain pull =
-            -fma(plain(2.0) * value.spring.damping, slope, there.value - value.resting);
-        const plain under = fma(plain(-0.5) * there.value, pull, slope * slope);
+        const plain under = fma(plain(-0.5) * there.value, acceleration(there), slope * slope);
         return value_and_step<plain>{there.value, there.value * slope / under};
     };
-    const mask_of<Real> found = wanted & (low < horizon) & (rising(high).value > zero);
+    const value_and_slope<plain> end = value.at(high);
+    const mask_of<Real> found = wanted & (low < horizon) & (end.value > zero);
     plain time = high;
     if (any(found)) {
-        // a launch from zero without damping comes back at twice its turning time
-        const plain twice = low + low;
-        const mask_of<Real> launched = sinks & (value.value == zero) & (twice < high);
-        const plain guess = select(launched, twice, (low + high) * plain(0.5));
+        // back from the end: the parabola there, and what a damped cosine adds to it
+        const plain bend = plain(-2.0) * acceleration(end) * end.value;
+        const plain rise = select(end.slope > zero, end.slope, zero);
+        const plain back = (end.value + end.value) / (rise + sqrt(fma(rise, rise, bend)));
+        const plain longer =
+            fma(back, fma(back, plain(1.0 / 24.0), value.spring.damping * plain(-1.0 / 3.0)),
+                plain(1.0));
+        plain guess = high - back * longer;
         time = bracketed_root<plain>(rising, {low, high}, guess, found);
     }
     if constexpr (without_derivatives<Real>) {

@@ -52,7 +52,11 @@ HOPSCOTCH_DEVICE inline mask_of<Real> meet_ground(nonlinear_lane<Real>& lane,
     lane.in_contact = select(wanted, select(stays, one, zero), lane.in_contact);
     lane.fresh = select(stays, one, lane.fresh);
     lane.contact_time = select(wanted, zero, lane.contact_time);
-    return stays & !(lane.damping > zero) & !(lane.energy - lane.loss > zero);
+    const mask_of<Real> is_stuck =
+        stays & !(lane.damping > zero) & !(lane.energy - lane.loss > zero);
+    const Real settling = rest_of_chatter(rebound, pull, lane.restitution);
+    lane.time = select(is_stuck, lane.time + settling, lane.time);
+    return is_stuck;
 }
 
 /// Lift-off from sustained contact: its speed, the increment, the next flight.

@@ -207,6 +207,7 @@ HOPSCOTCH_DEVICE inline progress<Real> begin_anywhere(hopper_lane<Real>& lane,
 template <class Coordinates>
 struct model {
     static constexpr int n_variants = 5;
+    static constexpr int n_cheap_variants = 3;  // without damping
     static constexpr int n_parameter_fields = passive::n_parameter_fields;
     static int variant(const variant_query& scene) { return variant_for(scene); }
     static std::string_view refusal(const double* parameter, const int*) {

@@ -29,6 +29,17 @@ struct damped {  // damping > 0, any restitution
 template <class Real>
 inline constexpr double chatter_speed = 0.1 * lane_traits<Real>::root_rounding;
 
+/// How long the flights after such a rebound would take: 2 u / |G''| (1 + e + e^2 + ...), with G''
+/// the pull F - 1 of the ground. A body that lifts off again does not wait for their end.
+template <class Real>
+HOPSCOTCH_DEVICE inline Real rest_of_chatter(const Real& rebound, const Real& pull,
+                                             const Real& restitution) {
+    const Real one(1.0);
+    const mask_of<Real> chatters = (rebound > Real(0.0)) & (pull < Real(0.0)) & (restitution < one);
+    const Real slowing = select(chatters, -pull * (one - restitution), one);
+    return select(chatters, (rebound + rebound) / slowing, Real(0.0));
+}
+
 /// The last instant of a flight, before the impact.
 template <class Real>
 struct landing {
@@ -188,6 +199,7 @@ HOPSCOTCH_DEVICE inline progress<Real> land(hopper_lane<Real>& lane, const landi
     Real velocity = end.velocity;
     Real rebound = zero;
     Real kept(0.0);  // share of the impact's energy that the rebound keeps
+    Real settling(0.0);
     mask_of<Real> rests = eta <= zero;
     if constexpr (Variant::has_rebound) {
         rebound = -(lane.restitution * end.gap_rate);
@@ -199,6 +211,7 @@ HOPSCOTCH_DEVICE inline progress<Real> land(hopper_lane<Real>& lane, const landi
         const mask_of<Real> silent =
             rebound <= smaller(-(pull * Real(chatter_speed<Real>)), Real(chatter_speed<Real>));
         rests = ((rebound == zero) | silent) & (pull <= zero);
+        settling = rest_of_chatter(rebound, pull, lane.restitution);
     }
     const mask_of<Real> contact = active & ((decided & sustained) | (!decided & rests));
     const mask_of<Real> bounces = active & !contact;
@@ -241,7 +254,8 @@ HOPSCOTCH_DEVICE inline progress<Real> land(hopper_lane<Real>& lane, const landi
                           after.speed);
         }
         if constexpr (Variant::is_timed) {
-            lane.time = select(after.lifts, lane.time + after.duration, lane.time);
+            const Real more = select(after.lifts, after.duration, settling);
+            lane.time = select(contact, lane.time + more, lane.time);
         }
         lane.events = select(after.lifts, lane.events + one, lane.events);
         const mask_of<Real> stays = contact & was_lift_off & (after.distance >= zero) &

@@ -16,10 +16,16 @@ struct arc_state {
     Real length, depth, velocity;
 };
 
+/// The depth's series is the length's, but for sign and value at 0.
 template <class Real>
 struct arc_series {
-    taylor::series<Real> length, depth, velocity, time;
+    taylor::series<Real> length, velocity, time;
+    Real depth;  // at 0
 
+    HOPSCOTCH_DEVICE arc_state<Real> at(const Real& s) const {
+        const Real rate = taylor::mean_rate(length, s);
+        return {fma(rate, s, length.c[0]), fma(-rate, s, depth), taylor::evaluate(velocity, s)};
+    }
     /// The state a time t after the step's beginning, for `trace`.
     arc_state<Real> at_time(const Real& t, const Real& end) const {
         const auto rising = [&](const Real& s) {
@@ -27,10 +33,7 @@ struct arc_series {
             at.value = at.value - t;
             return at;
         };
-        const Real s =
-            bracketed_root<Real>(rising, {Real(0.0), end}, end * Real(0.5), end > Real(0.0));
-        return {taylor::evaluate(length, s), taylor::evaluate(depth, s),
-                taylor::evaluate(velocity, s)};
+        return at(bracketed_root<Real>(rising, {Real(0.0), end}, end * Real(0.5), end > Real(0.0)));
     }
 };
 
@@ -40,17 +43,20 @@ HOPSCOTCH_DEVICE inline arc_series<Real> expand(const arc_state<Real>& from, con
     using taylor::over;
     arc_series<Real> a;
     a.length.c[0] = from.length;
-    a.depth.c[0] = from.depth;
     a.velocity.c[0] = from.velocity;
     a.time.c[0] = Real(0.0);
-    for (int n = 0; n < taylor::order<Real>; ++n) {
-        const int m = n + 1;
-        const Real drift = taylor::product(a.length, a.velocity, n);
+    a.depth = from.depth;
+    const auto next = [&](int n, const Real& drift) {
         const Real drag = fma(friction, drift, gravity * a.length.c[n]);
-        a.length.c[m] = over(drift, m);
-        a.depth.c[m] = -a.length.c[m];
-        a.velocity.c[m] = over(n == 0 ? stiffness - drag : -drag, m);
-        a.time.c[m] = over(a.length.c[n], m);
+        a.length.c[n + 1] = over(drift, n + 1);
+        a.velocity.c[n + 1] = over(n == 0 ? stiffness - drag : -drag, n + 1);
+        a.time.c[n + 1] = over(a.length.c[n], n + 1);
+    };
+    static_assert(taylor::order<Real> % 2 == 0);
+    for (int n = 0; n < taylor::order<Real>; n += 2) {
+        const auto drift = taylor::products(a.length, a.velocity, n);
+        next(n, drift.first);
+        next(n + 1, taylor::completed(drift.rest, a.length, a.velocity, n + 1));
     }
     return a;
 }

@@ -27,7 +27,13 @@ HOPSCOTCH_DEVICE inline unit_push<Real> push(const Real& s, const Real& friction
     const Real divisor = select(none, one, friction);
     const Real velocity = select(none, s, -expm1(-y) / divisor);
     Real sum(1.0);
-    for (int k = terms; k >= 1; --k) sum = one - y / Real(static_cast<double>(k + 2)) * sum;
+    for (int k = terms; k >= 1; --k) {
+        if constexpr (lane_traits<Real>::rounding > 0x1p-60) {
+            sum = fma(-y * Real(1.0 / (k + 2)), sum, one);
+        } else {
+            sum = one - y / Real(static_cast<double>(k + 2)) * sum;
+        }
+    }
     const Real near = Real(0.5) * s * s * sum;
     return {velocity, select_form(y < Real(0.3), near, (s - velocity) / divisor)};
 }
@@ -60,6 +66,7 @@ HOPSCOTCH_DEVICE inline thrust_end<Real> thrust(const Real& depth, const Real& h
     const mask_of<Real> cut = wanted & (rise > depth);
     const mask_of<Real> crashes = wanted & (rise < zero) & (height + rise <= zero);
     Real duration = time;
+    Real velocity = full.velocity;
     if (any(cut)) {
         const plain gamma = primal(friction);
         const plain target = sqrt(larger(primal(depth / net), plain(0.0)));
@@ -74,9 +81,9 @@ HOPSCOTCH_DEVICE inline thrust_end<Real> thrust(const Real& depth, const Real& h
         const Real exact = implicit_root(s, net * there.displacement - depth,
                                          primal(net) * primal(there.velocity));
         duration = select(cut, exact, time);
+        velocity = select(cut, push(duration, friction).velocity, velocity);
     }
-    const unit_push<Real> end = push(duration, friction);
-    return {cut, crashes, duration, net * end.velocity, select(cut, depth, rise)};
+    return {cut, crashes, duration, net * velocity, select(cut, depth, rise)};
 }
 
 }  // namespace hopscotch::inline HOPSCOTCH_TARGET::pneumatic

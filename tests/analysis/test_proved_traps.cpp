@@ -1,6 +1,8 @@
 // Traps proved from enclosures: the known stable orbits of the models' pages have them, wrong ones
 // are refused for the right reason, and no orbit leaves one.
 #include "analysis/traps/proved_trap.hpp"
+#include "analysis/labels/interval_trap.hpp"
+#include "analysis/labels/plan.hpp"
 #include "analysis/traps/proved_interval.hpp"
 #include "analysis/truth/decimal.hpp"
 #include "analysis/truth/interval_matrix.hpp"
@@ -8,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -341,6 +344,34 @@ TEST(proved_interval, traps_of_the_hopper_that_gains_speed_are_proved_up_to_the_
         // a hundredth wider on the left it is none: orbits there sink to rest
         EXPECT_FALSE(prove_interval_trap(map, trap.lowest - 1e-2, trap.highest));
     }
+}
+
+TEST(proved_interval, labels_of_the_hopper_that_gains_speed_rest_on_proved_traps) {
+    // one column of CPRR Fig. 8; a trap found by sampling is only replaced by what lies in it
+    const std::vector<std::string> column{"grid.axis.0.cells=1", "grid.axis.0.min=0.06",
+                                          "grid.axis.0.max=0.08", "grid.axis.1.cells=50"};
+    const scene of = read_scene(
+        std::string(HOPSCOTCH_SOURCE) + "/configs/scenes/chatterjee2002_fig8.toml", column);
+    const label_plan plan = plan_labels(of);
+    const auto row = std::ranges::find_if(
+        plan.attractors, [](const attractor_row& one) { return one.name == "fixed point 1"; });
+    ASSERT_NE(row, plan.attractors.end());
+    EXPECT_NE(row->trap.find("proved by enclosures"), std::string::npos) << row->trap;
+    const auto trap = std::ranges::find_if(
+        plan.traps, [&](const trap_interval& one) { return one.label == row->label; });
+    ASSERT_NE(trap, plan.traps.end());
+    EXPECT_NEAR(trap->lowest, 4.4815721927196863, 1e-9);  // at increment 0.07, as above
+    EXPECT_NEAR(trap->highest, 4.5877012273655371, 1e-9);
+}
+
+TEST(proved_interval, neutral_ends_keep_their_sampled_trap_and_say_so) {
+    // without added energy alpha*_1 attracts from above only: no enclosure tells it from a repeller
+    const map_point map = map_of("passive_hopper", "liftoff", {{"restitution", 0.1}});
+    interval_trap trap{4.4934094579090642, 4.6};
+    prove(map, trap);
+    EXPECT_FALSE(trap.is_proved);
+    EXPECT_EQ(trap.highest, 4.6);
+    EXPECT_EQ(trap.evidence(), "sampled and bisected");
 }
 
 // ---- wrong traps

@@ -90,6 +90,36 @@ TEST(first_zero, ignores_guards_that_rise_from_positive) {
     EXPECT_FALSE(first_zero(with_roots<double>({-0.5}, -1.0), 1.0, true).found);
 }
 
+TEST(first_zero, finds_the_zero_of_a_guard_that_falls_all_the_time_however_flat_it_is_there) {
+    // (1 - t)((t - 1)^2 + d^2): slope -d^2 at its only zero, 3 + d^2 at the start
+    for (const double d : {1.0, 0.5, 0.1, 1e-2, 1e-3}) {
+        series<double> guard{};
+        guard.c[0] = 1.0 + d * d;
+        guard.c[1] = -(3.0 + d * d);
+        guard.c[2] = 3.0;
+        guard.c[3] = -1.0;
+        // of the value, four roundings of its terms, over the slope
+        const double rounding = 32.0 * 0x1p-53 / (d * d);
+        for (const double horizon : {1.0 + 1e-3, 1.3, 1.9}) {
+            const auto answer = first_zero(guard, horizon, true);
+            EXPECT_TRUE(answer.found) << d << " " << horizon;
+            EXPECT_NEAR(answer.time, 1.0, rounding) << d << " " << horizon;
+        }
+        EXPECT_FALSE(first_zero(guard, 1.0 - 1e-3, true).found) << d;
+    }
+}
+
+TEST(first_zero, sees_two_crossings_that_bounds_cannot_exclude) {
+    // falls at both ends of the step and rises between: only the first zero counts
+    const auto answer = first_zero(with_roots<double>({0.2, 0.25, 0.9}), 1.0, true);
+    EXPECT_TRUE(answer.found);
+    EXPECT_NEAR(answer.time, 0.2, 1e-14);
+    // from above zero back to above zero
+    const auto pair = first_zero(with_roots<double>({0.6, 0.6001}), 1.0, true);
+    EXPECT_TRUE(pair.found);
+    EXPECT_NEAR(pair.time, 0.6, 1e-11);
+}
+
 TEST(first_zero, comes_to_an_end_on_what_is_not_a_number) {
     series<double> guard = with_roots<double>({0.5});
     guard.c[3] = std::nan("");
