@@ -1,5 +1,5 @@
 """Draws bench/results/work_precision.jsonl: one picture per model, microseconds per return against
-the median error, one line per method. Usage: draw_work_precision.py [RESULTS.jsonl] [FOLDER]"""
+errors of state and time, wrong outcomes and drift, one line per method. Usage: draw_work_precision.py [RESULTS.jsonl] [FOLDER]"""
 import json
 import math
 import pathlib
@@ -23,22 +23,40 @@ def read(path):
     return cases
 
 
+PANELS = [
+    ("error_median", "median error of the state after one return"),
+    ("time_error_median", "median error of the return's time"),
+    ("wrong_share", "share of wrong outcomes"),
+    ("drift_worst", "largest drift of what is conserved"),
+]
+
+
 def draw(model, lines, folder):
-    figure, axes = plt.subplots(figsize=(8, 6), layout="constrained")
-    for (case, method), rows in sorted(lines.items()):
-        rows.sort(key=lambda row: row["error_median"])
-        points = [
-            (max(row["error_median"], SMALLEST), row["us_per_return"])
-            for row in rows
-            if math.isfinite(row["error_median"])
-        ]
-        if points:
-            axes.loglog(*zip(*points), marker="o", label=f"{case}, {method}")
-    axes.set_xlabel("median error of the state after one return (against 50 digits)")
-    axes.set_ylabel("microseconds per return, one core")
-    axes.set_title(model)
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize=7)
+    shown = [
+        panel
+        for panel in PANELS
+        if any(row.get(panel[0]) is not None for rows in lines.values() for row in rows)
+    ]
+    figure, all_axes = plt.subplots(
+        1, len(shown), figsize=(6 * len(shown), 6), layout="constrained", sharey=True, squeeze=False
+    )
+    for axes, (key, title) in zip(all_axes[0], shown):
+        for (case, method), rows in sorted(lines.items()):
+            points = sorted(
+                (row[key] if key == "wrong_share" else max(row[key], SMALLEST), row["us_per_return"])
+                for row in rows
+                if row.get(key) is not None and math.isfinite(row[key])
+            )
+            if points:
+                axes.plot(*zip(*points), marker="o", label=f"{case}, {method}")
+        axes.set_yscale("log")
+        if key != "wrong_share":
+            axes.set_xscale("log")
+        axes.set_xlabel(title)
+        axes.grid(alpha=0.3)
+    all_axes[0][0].set_ylabel("microseconds per return, one core")
+    all_axes[0][0].legend(fontsize=7)
+    figure.suptitle(model)
     target = folder / f"work_precision_{model}.png"
     figure.savefig(target, dpi=120)
     plt.close(figure)

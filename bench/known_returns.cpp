@@ -17,6 +17,7 @@ double accuracy::middle() const { return errors.empty() ? HUGE_VAL : median(erro
 
 known_returns::known_returns(const yardstick_case& what, bool wants_time)
     : wants_time_(wants_time),
+      conserved_(what.conserved_column),
       work_(what.model, what.section, what.parameters, what.options, wants_time) {
     work_.set_starts(uniform_rows(8 * n_starts, what.starts));
     if (what.settled_after > 0) work_.settle(what.settled_after);
@@ -56,6 +57,10 @@ void known_returns::book(accuracy& result, std::size_t i, bool returned, const d
         worst = std::fmax(worst, difference / std::fmax(std::abs(truth_[i].columns[c]), scale_[c]));
     }
     result.errors.push_back(worst);
+    if (conserved_) {
+        const double before = work_.start(i)[*conserved_];
+        result.drifts.push_back(std::abs(columns[*conserved_] - before) / std::abs(before));
+    }
     if (wants_time_ && truth_[i].time > 0.0) {
         result.time_errors.push_back(std::abs(time - truth_[i].time) / truth_[i].time);
     }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace hopscotch::bench {
@@ -15,6 +16,7 @@ namespace hopscotch::bench {
 struct accuracy {
     std::vector<double> errors;       // relative, largest column, where the outcome is right
     std::vector<double> time_errors;  // of the return's time, relative; where times are wanted
+    std::vector<double> drifts;       // of what is conserved, relative; where something is
     double n_wrong = 0.0;             // outcomes
     double n_starts = 0.0;
 
@@ -56,6 +58,7 @@ private:
               double time) const;
 
     bool wants_time_;
+    std::optional<int> conserved_;
     model_returns work_;
     std::size_t n_ = 0;
     std::vector<true_state> truth_;

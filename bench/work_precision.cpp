@@ -1,5 +1,6 @@
 // What does accuracy cost? Per model, one return of the same starts by every method, tolerance and
-// precision offered: microseconds against error of state and time and share of wrong outcomes.
+// precision offered: microseconds against error of state and time, share of wrong outcomes, and
+// drift of what the model conserves (a runner's speed).
 //
 // Kernels (all backends; a ladder of tolerances where flows are integrated), single orbits in
 // double-double and 50 digits, and the yardsticks of bench/systems/. Errors are measured against 50
@@ -37,6 +38,10 @@ void put(const yardstick_case& what, std::string_view method, double tolerance,
     if (!result.time_errors.empty()) {
         line.add("time_error_median", share_of(result.time_errors, 0.5))
             .add("time_error_worst", share_of(result.time_errors, 1.0));
+    }
+    if (!result.drifts.empty()) {
+        line.add("drift_median", share_of(result.drifts, 0.5))
+            .add("drift_worst", share_of(result.drifts, 1.0));
     }
     line.print();
     fmt::print("{:<26} {:<20} {:>8.0e} {:>12.4f} us  error {:.1e} worst {:.1e}  wrong {:.3f}\n",

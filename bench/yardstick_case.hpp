@@ -7,6 +7,7 @@
 #include "bench/model_returns.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct yardstick_case {
     double fixed_tolerance = 0.0;                   // one more comparison, at this tolerance
     bool is_integrated = false;                     // then the kernel too is run at that error
     bool wants_time = false;
+    /// What every return leaves as it is, where there is something; its column.
+    std::optional<int> conserved_column;
 
     struct solver {
         std::string name;

@@ -132,7 +132,8 @@ int replay(const replay_arguments& given) {
     if (is_chaos_map(scene)) return replay_motion(scene, row.row, stored);
     int best = stored;
     for (const precision value : {precision::binary64, precision::dd, precision::mp50}) {
-        const orbit_answer answer = run_cell(scene, plan, coordinates, value, row.row);
+        const orbit_answer answer =
+            run_stored_cell(scene, plan, coordinates, value, row.row, stored);
         best = scene.question.has_labels ? answer.label : static_cast<int>(answer.end);
         fmt::print("{:<8} {}  outcome {}, {} returns, {} events, time {}\n", name_of(value),
                    value_name(scene, plan, best), name_of(answer.end), answer.returns,

@@ -104,7 +104,7 @@ judged_cell judge_cell(const scene& scene, const label_plan& plan, std::uint64_t
     judged_cell judged{{cell, stored.verdict, 0}, {cell, stored.numbers, {}}};
     orbit_answer answer;
     for (const precision value : {precision::dd, precision::mp50}) {
-        answer = run_cell(scene, plan, coordinates, value, row.row);
+        answer = run_stored_cell(scene, plan, coordinates, value, row.row, stored.verdict);
         judged.verdict.computed = compared(scene, answer);
         if (judged.verdict.agrees()) break;
     }
@@ -174,12 +174,15 @@ audit_report audit(const scene& scene, const label_plan& plan, const tile_source
     const kernel_choice kernel = kernel_of(scene, "auto");
     tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
         if (stop_condition::is_interrupted()) throw interruption();
-        const label_plan own =
-            plan.of_cell ? plan.of_cell(coordinates_of(scene, cells[i])) : label_plan{};
-        const label_plan& used = plan.of_cell ? own : plan;
-        judged[i] = judge_cell(scene, used, cells[i], stored[i], numeric);
-        judged[i].is_uncertain =
-            certainty_of(scene, used, kernel.run, std::span(&cells[i], 1)).front() != 0;
+        const std::span cell(&cells[i], 1);
+        if (plan.of_cell) {
+            const label_plan own = plan.of_cell(coordinates_of(scene, cells[i]));
+            judged[i] = judge_cell(scene, own, cells[i], stored[i], numeric);
+            judged[i].is_uncertain = second_look(scene, own, kernel.run, cell).front() != 0;
+        } else {
+            judged[i] = judge_cell(scene, plan, cells[i], stored[i], numeric);
+            judged[i].is_uncertain = certainty_of(scene, plan, kernel.run, cell).front() != 0;
+        }
         if (stored[i].is_inherited) judged[i].errors.errors.clear();  // it has no numbers
     });
     audit_report report = report_of(judged, numeric);

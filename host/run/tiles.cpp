@@ -14,6 +14,8 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <span>
 
 namespace hopscotch {
 namespace {
@@ -150,10 +152,10 @@ private:
 
 using layer_buffers = std::vector<std::vector<std::byte>>;
 
-/// All layers of the cells of one request, in its order.
-layer_buffers compute_layers(const tile_job& job, const label_plan& plan, cell_request& cells,
+/// All layers of the cells of one request, in its order; `cells` are their indices in the map.
+layer_buffers compute_layers(const tile_job& job, const label_plan& plan,
+                             std::span<const std::uint64_t> cells, ensemble_request& request,
                              lane_statistics& lanes) {
-    ensemble_request& request = cells.request;
     const std::uint64_t n_cells = request.n_cells;
     layer_buffers buffers;
     for (const layer_plan& layer : job.layers) {
@@ -170,7 +172,8 @@ layer_buffers compute_layers(const tile_job& job, const label_plan& plan, cell_r
         } else if (job.layers[i].role == layer_role::immediate) {
             fill_immediate(plan, request, buffers[i]);
         } else if (job.layers[i].role == layer_role::uncertain) {
-            const auto flags = certainty_of(job.what, plan, run, request);
+            const auto flags = job.plan.of_cell ? second_look(job.what, plan, run, request)
+                                                : certainty_of(job.what, plan, run, request, cells);
             std::memcpy(buffers[i].data(), flags.data(), flags.size());
         }
     }
@@ -208,8 +211,8 @@ layer_buffers compute_by_point(const tile_job& job, const std::vector<std::uint6
     }
     for (const cell_group& group : groups_of(job.what, job.plan, all)) {
         const label_plan plan = job.plan.of_cell(group.first);
-        cell_request cells = request_of(job.what, plan, group.cells);
-        const layer_buffers found = compute_layers(job, plan, cells, lanes);
+        cell_request request = request_of(job.what, plan, group.cells);
+        const layer_buffers found = compute_layers(job, plan, group.cells, request.request, lanes);
         for (std::size_t i = 0; i < found.size(); ++i) {
             const std::size_t size = bytes_of(job.layers[i].description.type);
             for (std::size_t k = 0; k < group.places.size(); ++k) {
@@ -225,8 +228,11 @@ std::vector<std::uint64_t> cells_in(const map_layout& layout, const tile_box& bo
     std::vector<std::uint64_t> shape;
     for (const axis& along : layout.axes) shape.push_back(along.size());
     std::vector<std::uint64_t> cells(box.n_cells());
-    for (std::uint64_t place = 0; place < cells.size(); ++place) {
-        cells[place] = offset_in(shape, coordinates_in(box, place));
+    const std::uint64_t row = box.extent.back();
+    for (std::uint64_t place = 0; place < cells.size(); place += row) {
+        const auto begin = cells.begin() + static_cast<std::ptrdiff_t>(place);
+        std::iota(begin, begin + static_cast<std::ptrdiff_t>(row),
+                  offset_in(shape, coordinates_in(box, place)));
     }
     return cells;
 }
@@ -238,7 +244,7 @@ std::vector<std::vector<std::byte>> compute_cells(const tile_job& job,
                                                   lane_statistics& lanes) {
     if (job.plan.of_cell) return compute_by_point(job, cells, lanes);
     cell_request request = request_of(job.what, job.plan, cells);
-    return compute_layers(job, job.plan, request, lanes);
+    return compute_layers(job, job.plan, cells, request.request, lanes);
 }
 
 tile_result compute_tile(const tile_job& job, const tile_box& box) {
@@ -246,11 +252,12 @@ tile_result compute_tile(const tile_job& job, const tile_box& box) {
     tile_result result;
     result.data.box = box;
     result.n_computed = box.n_cells();
+    const std::vector<std::uint64_t> cells = cells_in(job.layout, box);
     if (job.plan.of_cell) {
-        result.data.layers = compute_by_point(job, cells_in(job.layout, box), result.lanes);
+        result.data.layers = compute_by_point(job, cells, result.lanes);
     } else {
-        cell_request cells = request_of(job.what, job.plan, job.layout, box);
-        result.data.layers = compute_layers(job, job.plan, cells, result.lanes);
+        cell_request request = request_of(job.what, job.plan, job.layout, box);
+        result.data.layers = compute_layers(job, job.plan, cells, request.request, result.lanes);
     }
     const auto end = std::chrono::steady_clock::now();
     result.seconds = std::chrono::duration<double>(end - begin).count();

@@ -77,6 +77,19 @@ orbit_answer run_cell(const scene& scene, const label_plan& plan,
     return answer;
 }
 
+orbit_answer run_stored_cell(const scene& scene, const label_plan& plan,
+                             std::span<const std::uint64_t> coordinates, precision value,
+                             const orbit_row& row, int stored) {
+    const orbit_answer answer = run_cell(scene, plan, coordinates, value, row);
+    const bool is_rest =
+        scene.question.has_labels && plan.died_label > 0 && stored == plan.died_label;
+    const bool is_on_its_way = answer.end == outcome::budget && answer.returns == row.returns;
+    if (value == precision::binary64 || !is_rest || !is_on_its_way) return answer;
+    orbit_row longer = row;
+    longer.returns *= 5;
+    return run_cell(scene, plan, coordinates, value, longer);
+}
+
 namespace {
 
 const orbit_functions& orbits_of(const model_entry& model) {

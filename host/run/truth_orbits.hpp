@@ -37,6 +37,14 @@ orbit_answer run_cell(const scene& scene, const label_plan& plan,
                       std::span<const std::uint64_t> coordinates, precision value,
                       const orbit_row& row);
 
+/// The same for a cell that the map gives the label `stored`. Rest is decided to the rounding of
+/// each arithmetic, and an orbit that approaches it geometrically reaches that after twice as many
+/// returns in double-double, after four times as many in 50 digits and their guard digits. So where
+/// `stored` means rest and the orbit's returns run out, it is given five times as many.
+orbit_answer run_stored_cell(const scene& scene, const label_plan& plan,
+                             std::span<const std::uint64_t> coordinates, precision value,
+                             const orbit_row& row, int stored);
+
 /// \error std::invalid_argument where the model is built without single orbits
 orbit_answer run_orbit(const model_entry& model, precision value, const orbit_row& row);
 

@@ -1,118 +1,28 @@
-// Moves the starts of a request, runs it again, compares.
+// Runs moved starts and compares.
 #include "host/run/uncertain.hpp"
 
+#include "host/run/answers.hpp"
+#include "host/run/doubtful.hpp"
 #include "host/run/requests.hpp"
 #include "host/scene/grid.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 namespace hopscotch {
 namespace {
 
-/// What orbits are compared by.
-struct answers {
-    explicit answers(std::uint64_t n) : label(n), outcome(n), returns(n), events(n), motion(n) {}
-
-    void bind(ensemble_request& request, const scene& scene) {
-        if (scene.question.has_labels) request.label = label.data();
-        request.outcome = outcome.data();
-        request.returns = returns.data();
-        if (is_chaos_map(scene)) {
-            request.exponents.motion = motion.data();
-        } else {
-            request.events = events.data();
-        }
+/// Cells of the map with their answers.
+struct answered_cells {
+    answered_cells(const scene& scene, const label_plan& plan, const kernel_run& run,
+                   std::span<const std::uint64_t> cells)
+        : tables(request_of(scene, plan, cells)), found(cells.size()), request(tables.request) {
+        found.bind(request, scene);
+        run_labelled(scene, plan, run, request);
     }
 
-    std::vector<std::int16_t> label;
-    std::vector<std::uint8_t> outcome;
-    std::vector<std::uint32_t> returns;
-    std::vector<std::uint32_t> events;
-    std::vector<std::uint8_t> motion;
-};
-
-/// The same cells, no results wanted.
-ensemble_request without_results(ensemble_request request) {
-    request.label = nullptr;
-    request.outcome = nullptr;
-    request.returns = request.events = nullptr;
-    request.time = nullptr;
-    std::fill(std::begin(request.state), std::end(request.state), nullptr);
-    std::fill(std::begin(request.extras), std::end(request.extras), nullptr);
-    exponent_request& exponents = request.exponents;
-    std::fill(std::begin(exponents.exponents), std::end(exponents.exponents), nullptr);
-    exponents.rate = exponents.standard_error = nullptr;
-    exponents.returns = nullptr;
-    exponents.motion = nullptr;
-    return request;
-}
-
-/// x moved, or x where that would leave what is admissible. Zeros, infinities and numbers that the
-/// model derives (NaN) stay: they switch terms off.
-double moved(double x, double by, const range& valid) {
-    const double y = x + by;
-    return std::isfinite(x) && valid.holds(y) ? y : x;
-}
-
-/// A request whose starts are moved in one way, with the tables that it points to.
-class moved_request {
-public:
-    moved_request(const scene& scene, const ensemble_request& from, double tolerance)
-        : scene_(scene), request_(without_results(from)), tolerance_(tolerance) {}
-
-    ensemble_request& request() { return request_; }
-
-    void move_axis(const scene_axis& axis, double sign) {
-        const auto index = static_cast<std::size_t>(axis.index);
-        const bool is_column = axis.kind == axis_kind::column;
-        const range& valid = is_column ? scene_.start_section().columns[index].valid
-                                       : scene_.info().parameters[index].valid;
-        const double scale = axis.scale == axis_scale::log
-                                 ? 0.0
-                                 : std::max(std::abs(axis.lowest), std::abs(axis.highest));
-        move(is_column ? request_.columns[index] : request_.parameters[index], scale, sign, valid);
-    }
-
-    /// All numbers that are no axes, with alternating signs.
-    void move_fixed(double sign) {
-        for (std::size_t c = 0; c < scene_.start.size(); ++c, sign = -sign) {
-            if (is_axis(axis_kind::column, c)) continue;
-            move_constant(request_.columns[c], sign, scene_.start_section().columns[c].valid);
-        }
-        for (std::size_t p = 0; p < scene_.parameters.size(); ++p, sign = -sign) {
-            if (is_axis(axis_kind::parameter, p)) continue;
-            move_constant(request_.parameters[p], sign, scene_.info().parameters[p].valid);
-        }
-    }
-
-private:
-    bool is_axis(axis_kind kind, std::size_t index) const {
-        return std::any_of(scene_.axes.begin(), scene_.axes.end(), [&](const scene_axis& axis) {
-            return axis.kind == kind && static_cast<std::size_t>(axis.index) == index;
-        });
-    }
-
-    void move_constant(column_source& source, double sign, const range& valid) {
-        if (source.values[0] == 0.0) return;
-        move(source, 0.0, sign, valid);
-    }
-
-    void move(column_source& source, double scale, double sign, const range& valid) {
-        std::vector<double>& table = tables_.emplace_back(source.size);
-        for (std::uint64_t i = 0; i < source.size; ++i) {
-            const double x = source.values[i];
-            table[i] = moved(x, sign * displacement_of(x, scale, tolerance_), valid);
-        }
-        source.values = table.data();
-    }
-
-    const scene& scene_;
-    ensemble_request request_;
-    double tolerance_;
-    std::vector<std::vector<double>> tables_;
+    cell_request tables;
+    answers found;
+    ensemble_request request;
 };
 
 /// Compares two runs of the same cells.
@@ -126,11 +36,11 @@ public:
         }
     }
 
-    void compare(const ensemble_request& second) {
-        for (std::uint64_t cell = 0; cell < first_.n_cells; ++cell) {
-            if (has_other_answer(second, cell)) {
+    void compare(const answer_view& second) {
+        for (std::uint64_t cell = 0; cell < flags_.size(); ++cell) {
+            if (has_other_answer(scene_, first_, cell, second, cell)) {
                 flags_[cell] = static_cast<std::uint8_t>(certainty::answer_changes);
-            } else if (flags_[cell] == 0 && has_other_events(second, cell)) {
+            } else if (flags_[cell] == 0 && has_other_events(scene_, first_, cell, second, cell)) {
                 flags_[cell] = static_cast<std::uint8_t>(certainty::events_change);
             }
         }
@@ -143,47 +53,22 @@ private:
         return end == outcome::unresolved_event || end == outcome::not_finite;
     }
 
-    bool has_other_answer(const ensemble_request& second, std::uint64_t cell) const {
-        if (first_.outcome[cell] != second.outcome[cell]) return true;
-        if (is_chaos_map(scene_)) {
-            return first_.exponents.motion[cell] != second.exponents.motion[cell];
-        }
-        if (scene_.question.has_labels) return first_.label[cell] != second.label[cell];
-        return scene_.question.kind == "steps_to_fall" &&
-               first_.returns[cell] != second.returns[cell];
-    }
-
-    /// In a fractal basin all moved starts may happen to end alike; their numbers of returns and
-    /// events give them away.
-    bool has_other_events(const ensemble_request& second, std::uint64_t cell) const {
-        return !is_chaos_map(scene_) && (first_.returns[cell] != second.returns[cell] ||
-                                         first_.events[cell] != second.events[cell]);
-    }
-
     const scene& scene_;
-    const ensemble_request& first_;
+    answer_view first_;
     std::vector<std::uint8_t> flags_;
 };
 
 }  // namespace
 
-double displacement_of(double x, double scale, double tolerance) {
-    const double size = std::max(std::abs(x), scale);
-    const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
-    return std::max(16.0 * ulp, 100.0 * tolerance * (0.25 + size));
-}
-
-std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,
-                                       const kernel_run& run, const ensemble_request& results) {
-    const bool integrates =
-        scene.model->integrates != nullptr && scene.model->integrates(variant_of(scene));
-    const double tolerance = integrates ? scene.accuracy.tolerance : 0.0;
+std::vector<std::uint8_t> second_look(const scene& scene, const label_plan& plan,
+                                      const kernel_run& run, const ensemble_request& results) {
+    const double tolerance = tolerance_of(scene);
     comparison compared(scene, results);
     answers found(results.n_cells);
     const auto look = [&](moved_request& again) {
         found.bind(again.request(), scene);
         run_labelled(scene, plan, run, again.request());
-        compared.compare(again.request());
+        compared.compare(answer_view(again.request()));
     };
     for (const double sign : {1.0, -1.0}) {
         for (const scene_axis& axis : scene.axes) {
@@ -198,22 +83,41 @@ std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& pla
     return std::move(compared).flags();
 }
 
+std::vector<std::uint8_t> second_look(const scene& scene, const label_plan& plan,
+                                      const kernel_run& run, std::span<const std::uint64_t> cells) {
+    return second_look(scene, plan, run, answered_cells(scene, plan, run, cells).request);
+}
+
+std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,
+                                       const kernel_run& run, const ensemble_request& results,
+                                       std::span<const std::uint64_t> cells) {
+    const double tolerance = tolerance_of(scene);
+    if (!do_neighbours_tell(scene, tolerance)) {
+        return second_look(scene, plan, run, results);
+    }
+    const answer_view found(results);
+    const std::vector<std::uint64_t> places =
+        doubtful_among(scene, plan, run, cells, found, tolerance);
+    std::vector<std::uint8_t> flags(cells.size(), static_cast<std::uint8_t>(certainty::certain));
+    if (places.empty()) return flags;
+    std::vector<std::uint64_t> doubtful;
+    answers first(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        doubtful.push_back(cells[places[i]]);
+        first.take(i, found, places[i]);
+    }
+    cell_request again = request_of(scene, plan, doubtful);
+    first.bind(again.request, scene);
+    const std::vector<std::uint8_t> looked = second_look(scene, plan, run, again.request);
+    for (std::size_t i = 0; i < places.size(); ++i) flags[places[i]] = looked[i];
+    return flags;
+}
+
 std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,
                                        const kernel_run& run,
                                        std::span<const std::uint64_t> cells) {
-    std::vector<std::uint8_t> flags;
-    if (plan.of_cell) {
-        for (const std::uint64_t cell : cells) {
-            const label_plan own = plan.of_cell(coordinates_of(scene, cell));
-            flags.push_back(certainty_of(scene, own, run, std::span(&cell, 1)).front());
-        }
-        return flags;
-    }
-    cell_request request = request_of(scene, plan, cells);
-    answers first(cells.size());
-    first.bind(request.request, scene);
-    run_labelled(scene, plan, run, request.request);
-    return certainty_of(scene, plan, run, request.request);
+    const answered_cells first(scene, plan, run, cells);
+    return certainty_of(scene, plan, run, first.request, cells);
 }
 
 }  // namespace hopscotch

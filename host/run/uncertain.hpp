@@ -1,18 +1,20 @@
 // Which cells the arithmetic cannot decide: those whose answer changes when their start moves by a
 // few roundings. The layer `uncertain`, and the audit's share of such cells.
 //
-// Every cell is computed again by the same kernel from moved starts: each axis by itself, up and
-// down, and all fixed numbers at once. An orbit's roundings act like a small displacement of its
-// start, unless it contracts so fast that a displaced start is forgotten before it reaches the
-// boundary; moving the parameters acts at every return, as roundings do. Four ulp are too few: of
-// cells one ulp apart at boundaries, wrong labels went unflagged where orbits dwell on a ghost of a
-// fixed point (tests/hard/test_wrong_labels.cpp). Looking only at cells with
-// neighbours of another label would be cheaper and miss filaments thinner than a cell.
+// Cells that are not certain by their neighbours (doubtful.hpp) are computed again by the same
+// kernel from moved starts: each axis by itself, up and down, and all fixed numbers at once. An
+// orbit's roundings act like a small displacement of its start, unless it contracts so fast that a
+// displaced start is forgotten before it reaches the boundary; moving the parameters acts at every
+// return, as roundings do. That also finds an orbit that passes a guard closer than its error: the
+// moved ones pass on the other side, with another number of events. Sixteen ulp, because four are
+// too few: of cells one ulp apart at boundaries, wrong labels went unflagged where orbits dwell on
+// a ghost of a fixed point (tests/hard/test_wrong_labels.cpp, `bench uncertain`).
 #pragma once
 
 #include "host/map/certainty.hpp"
 #include "host/run/label_plan.hpp"
 #include "host/run/labelled_run.hpp"
+#include "host/run/moved_starts.hpp"
 #include "host/scene/scene.hpp"
 
 #include <cstdint>
@@ -21,21 +23,28 @@
 
 namespace hopscotch {
 
-/// How far a number moves: 16 ulp of the larger of |x| and `scale`, and where a flow is integrated
-/// to `tolerance` > 0 at least 100 (1/4 + that size) tolerances, ten times what a return may be off
-/// by (kernels/integrators/taylor.hpp).
-double displacement_of(double x, double scale, double tolerance);
-
-/// The certainty of every cell of a request.
+/// The certainty of every cell of a request by a second look at each.
 ///
-/// \param results  an earlier run of the request, its results bound: outcome, returns and events;
-///                 label where the question has labels; motion instead of events where it asks for
-///                 exponents
+/// \param plan     of the map, or of the one parameter point that all cells belong to
+/// \param results  an earlier run of the request, its results bound as answers.hpp asks
 /// \return         codes of `certainty`
-std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,
-                                       const kernel_run& run, const ensemble_request& results);
+std::vector<std::uint8_t> second_look(const scene& scene, const label_plan& plan,
+                                      const kernel_run& run, const ensemble_request& results);
 
-/// The certainty of some cells of the map, by index in C order.
+/// The same for some cells of the map, by index in C order. Computes their answers first.
+std::vector<std::uint8_t> second_look(const scene& scene, const label_plan& plan,
+                                      const kernel_run& run, std::span<const std::uint64_t> cells);
+
+/// Looks again only where neighbours or fixed numbers ask for it.
+///
+/// \param plan     of the map, and not one with a plan per point
+/// \param results  an earlier run of the cells, bound as answers.hpp asks
+/// \param cells    of the map, by index in C order, rising
+std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,
+                                       const kernel_run& run, const ensemble_request& results,
+                                       std::span<const std::uint64_t> cells);
+
+/// The same. Computes the cells' answers first.
 std::vector<std::uint8_t> certainty_of(const scene& scene, const label_plan& plan,
                                        const kernel_run& run, std::span<const std::uint64_t> cells);
 

@@ -43,11 +43,16 @@ inline scene part_of(scene line, double low, double high, std::uint64_t cells) {
     return line;
 }
 
-/// What the map would store of every cell of a line: label, or outcome and returns.
-inline std::vector<int> answers_of(const scene& line, const label_plan& plan,
-                                   const kernel_choice& kernel) {
-    std::vector<std::uint64_t> cells(line.n_cells());
+inline std::vector<std::uint64_t> all_cells_of(const scene& scene) {
+    std::vector<std::uint64_t> cells(scene.n_cells());
     std::iota(cells.begin(), cells.end(), std::uint64_t{0});
+    return cells;
+}
+
+/// What the map would store of some cells: label, or outcome.
+inline std::vector<int> answers_of(const scene& line, const label_plan& plan,
+                                   const kernel_choice& kernel,
+                                   const std::vector<std::uint64_t>& cells) {
     cell_request request = request_of(line, plan, cells);
     std::vector<std::int16_t> label(cells.size());
     std::vector<std::uint8_t> end(cells.size());
@@ -72,7 +77,7 @@ inline double change_between(const scene& line, const label_plan& plan, const ke
                              double low, double high) {
     while (high - low > 16.0 * ulp_of(high)) {
         const scene part = part_of(line, low, high, 17);
-        const std::vector<int> answers = answers_of(part, plan, kernel);
+        const std::vector<int> answers = answers_of(part, plan, kernel, all_cells_of(part));
         std::uint64_t i = 1;
         while (i + 1 < answers.size() && answers[i] == answers[0]) ++i;
         low = value_of(part.axes[0], i - 1);
@@ -86,7 +91,7 @@ inline std::vector<double> changes_on(const scene& line, const label_plan& plan,
                                       const kernel_choice& kernel, std::uint64_t cells,
                                       std::size_t most) {
     const scene coarse = part_of(line, line.axes[0].lowest, line.axes[0].highest, cells);
-    const std::vector<int> answers = answers_of(coarse, plan, kernel);
+    const std::vector<int> answers = answers_of(coarse, plan, kernel, all_cells_of(coarse));
     std::vector<double> changes;
     for (std::uint64_t i = 1; i < answers.size() && changes.size() < most; ++i) {
         if (answers[i] == answers[i - 1]) continue;

@@ -1,6 +1,21 @@
-// What users of other solvers trip over, as tests under names that say so. Those that hold for
-// every lane, tile, thread and derivative are in tests/models/test_every_model_*.cpp and
-// tests/host.
+// What users of other solvers trip over, as tests under names that say so. Those that need a room
+// of their own are elsewhere:
+// - event on a step's boundary, integrator stuck at the event, two events in one step cancel: the
+//   tests first_zero;
+// - simultaneous crossings: mirror_planar.reaches_every_outcome_in_the_order_of_the_page,
+//   openloop_hopper.a_body_at_the_two_fold_is_held_until_the_thrust_ends;
+// - reset by the wrong guard: openloop_hopper.agrees_with_a_stepped_simulation_under_both_guards;
+// - callbacks ignored by part of a batch, AVX-512 or a GPU changes results: every_model_lanes,
+//   lane_identity, device_loop;
+// - a failed event is only logged: uncertain_cells,
+//   every_model_lanes.wild_numbers_end_in_an_outcome_and_disturb_no_neighbour;
+// - energy drifts through events: passive_energy, passive_nonlinear, long_runs;
+// - derivatives through event times are wrong: every_model_derivatives;
+// - labels depend on order: device_scenes, cli.test_run, cli.test_shards, cli.test_mpi;
+// - out of device memory, assembling results is slow: device_pool;
+// - files without dimension scales, missing parts that read as data: python.open,
+//   python.open_virtual, virtual_map;
+// - progress and --dry-run: cli.test_run, cli.test_large_maps.
 #include "host/run/backends.hpp"
 #include "tests/models/every_model.hpp"
 #include "tests/models/named_map.hpp"

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -20,11 +21,16 @@ constexpr double ulp_of_three = 0x1p-51;
 
 /// height -> height / 2, and up to 1.5 belongs to label 1: the boundary lies at 3, which belongs
 /// to it. Cells k = -n ... n stand `step` apart around it.
-scene around_three(int n, double step, std::string_view law) {
-    const std::string text = fmt::format(R"([model]
+scene around_three(int n, double step, std::string_view law, double gain = 0.5, double offset = 0.0,
+                   int tile = 10) {
+    const std::string text =
+        fmt::format(R"([model]
 name = "fake_bouncer"
 [model.options]
 law = "{}"
+[model.parameters]
+gain = {:.17g}
+offset = {:.17g}
 [[grid.axis]]
 name = "height"
 min = {:.17g}
@@ -38,9 +44,9 @@ kind = "basins"
 returns = 1
 [output]
 layers = ["label", "uncertain"]
-tile = [10]
+tile = [{}]
 )",
-                                         law, 3.0 - n * step, 3.0 + n * step, 2 * n + 1);
+                    law, gain, offset, 3.0 - n * step, 3.0 + n * step, 2 * n + 1, tile);
     return parse_scene(text, "boundary.toml", {}, fake::models());
 }
 
@@ -110,4 +116,45 @@ TEST(uncertain_cells, move_by_roundings_or_by_the_tolerance) {
     EXPECT_EQ(displacement_of(-3.0, 0.0, 0.0), 16.0 * ulp_of_three);
     EXPECT_EQ(displacement_of(1e-9, 3.0, 0.0), 16.0 * ulp_of_three);  // of the axis
     EXPECT_DOUBLE_EQ(displacement_of(0.75, 0.0, 1e-9), 1e-7);
+}
+
+TEST(uncertain_cells, are_found_where_neighbours_are_far_apart) {
+    // cells 1/16 apart; the middle one stands on the boundary
+    const int n = 40;
+    const std::vector<double> uncertain =
+        computed_layer(around_three(n, 0x1p-4, "steep"), "uncertain");
+    for (int k = -n; k <= n; ++k) {
+        EXPECT_EQ(uncertain[static_cast<std::size_t>(k + n)], k == 0 ? 1.0 : 0.0) << k;
+    }
+}
+
+TEST(uncertain_cells, do_not_depend_on_tiles) {
+    const int n = 40;
+    const scene small = around_three(n, 0x1p-4, "steep", 0.5, 0.0, 1);
+    const scene large = around_three(n, 0x1p-4, "steep", 0.5, 0.0, 100);
+    EXPECT_EQ(computed_layer(small, "uncertain"), computed_layer(large, "uncertain"));
+}
+
+TEST(uncertain_cells, are_all_where_a_fixed_number_alone_decides) {
+    // height -> 2^-80 height + 1.5: every cell ends on the trap's edge, and no neighbour differs
+    const scene scene = around_three(40, 0x1p-4, "steep", 0x1p-80, 1.5);
+    for (const double flag : computed_layer(scene, "uncertain")) EXPECT_EQ(flag, 1.0);
+}
+
+TEST(uncertain_cells, cost_few_further_runs_where_neighbours_agree) {
+    const scene scene = around_three(400, 0x1p-4, "steep");
+    const label_plan plan = plan_of(scene);
+    std::vector<std::uint64_t> cells(scene.n_cells());
+    std::iota(cells.begin(), cells.end(), std::uint64_t{0});
+    std::uint64_t n_run = 0;
+    const auto counted = [&](const ensemble_request& request) {
+        n_run += request.n_cells;
+        return fake::run(request);
+    };
+    certainty_of(scene, plan, counted, cells);
+    // once each, every eighth cell twice more, and a few around two boundaries (3, and 0 below
+    // which no start is valid) and the two ends
+    EXPECT_LE(n_run, scene.n_cells() * 5 / 4 + 60);
+    EXPECT_EQ(second_look(scene, plan, fake::run, cells),
+              certainty_of(scene, plan, fake::run, cells));
 }

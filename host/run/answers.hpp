@@ -1,0 +1,97 @@
+// What orbits are compared by where the question is whether two of them end alike: label, outcome,
+// returns and events, or the motion of a chaos map. For the layer `uncertain`.
+#pragma once
+
+#include "host/run/requests.hpp"
+#include "host/scene/scene.hpp"
+#include "kernels/ensemble/request.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <vector>
+
+namespace hopscotch {
+
+/// Answers of a request with its results bound: outcome, returns and events; label where the
+/// question has labels; motion instead of events where it asks for exponents.
+struct answer_view {
+    explicit answer_view(const ensemble_request& of)
+        : label(of.label),
+          outcome(of.outcome),
+          returns(of.returns),
+          events(of.events),
+          motion(of.exponents.motion) {}
+
+    const std::int16_t* label;
+    const std::uint8_t* outcome;
+    const std::uint32_t* returns;
+    const std::uint32_t* events;
+    const std::uint8_t* motion;
+};
+
+/// Answers with memory of their own.
+struct answers {
+    explicit answers(std::uint64_t n) : label(n), outcome(n), returns(n), events(n), motion(n) {}
+
+    void bind(ensemble_request& request, const scene& scene) {
+        if (scene.question.has_labels) request.label = label.data();
+        request.outcome = outcome.data();
+        request.returns = returns.data();
+        if (is_chaos_map(scene)) {
+            request.exponents.motion = motion.data();
+        } else {
+            request.events = events.data();
+        }
+    }
+
+    /// Takes the i-th answer of others.
+    void take(std::uint64_t place, const answer_view& from, std::uint64_t i) {
+        if (from.label != nullptr) label[place] = from.label[i];
+        outcome[place] = from.outcome[i];
+        returns[place] = from.returns[i];
+        if (from.events != nullptr) events[place] = from.events[i];
+        if (from.motion != nullptr) motion[place] = from.motion[i];
+    }
+
+    std::vector<std::int16_t> label;
+    std::vector<std::uint8_t> outcome;
+    std::vector<std::uint32_t> returns;
+    std::vector<std::uint32_t> events;
+    std::vector<std::uint8_t> motion;
+};
+
+/// Does the i-th orbit end otherwise than the j-th of another run, as far as the question asks?
+inline bool has_other_answer(const scene& scene, const answer_view& a, std::uint64_t i,
+                             const answer_view& b, std::uint64_t j) {
+    if (a.outcome[i] != b.outcome[j]) return true;
+    if (is_chaos_map(scene)) return a.motion[i] != b.motion[j];
+    if (scene.question.has_labels) return a.label[i] != b.label[j];
+    return scene.question.kind == "steps_to_fall" && a.returns[i] != b.returns[j];
+}
+
+/// Does it end alike, but after another number of returns or events? In a fractal basin all moved
+/// starts may happen to end alike; these numbers give them away.
+inline bool has_other_events(const scene& scene, const answer_view& a, std::uint64_t i,
+                             const answer_view& b, std::uint64_t j) {
+    return !is_chaos_map(scene) && (a.returns[i] != b.returns[j] || a.events[i] != b.events[j]);
+}
+
+/// The same cells, no results wanted.
+inline ensemble_request without_results(ensemble_request request) {
+    request.label = nullptr;
+    request.outcome = nullptr;
+    request.returns = request.events = nullptr;
+    request.time = nullptr;
+    std::fill(std::begin(request.state), std::end(request.state), nullptr);
+    std::fill(std::begin(request.extras), std::end(request.extras), nullptr);
+    exponent_request& exponents = request.exponents;
+    std::fill(std::begin(exponents.exponents), std::end(exponents.exponents), nullptr);
+    exponents.rate = exponents.standard_error = nullptr;
+    exponents.returns = nullptr;
+    exponents.motion = nullptr;
+    return request;
+}
+
+}  // namespace hopscotch

@@ -1,0 +1,102 @@
+// Moves the starts of a request.
+#include "host/run/moved_starts.hpp"
+
+#include "host/run/requests.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hopscotch {
+namespace {
+
+double moved(double x, double by, const range& valid) {
+    const double y = x + by;
+    return std::isfinite(x) && valid.holds(y) ? y : x;
+}
+
+double scale_of(const scene_axis& axis) {
+    return axis.scale == axis_scale::log ? 0.0
+                                         : std::max(std::abs(axis.lowest), std::abs(axis.highest));
+}
+
+}  // namespace
+
+double displacement_of(double x, double scale, double tolerance) {
+    const double size = std::max(std::abs(x), scale);
+    const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
+    return std::max(16.0 * ulp, 100.0 * tolerance * (0.25 + size));
+}
+
+double displacement_on(const scene_axis& axis, double x, double tolerance) {
+    return displacement_of(x, scale_of(axis), tolerance);
+}
+
+double tolerance_of(const scene& scene) {
+    const bool integrates =
+        scene.model->integrates != nullptr && scene.model->integrates(variant_of(scene));
+    return integrates ? scene.accuracy.tolerance : 0.0;
+}
+
+double spacing_at(const scene_axis& axis, double x) {
+    const auto gaps = static_cast<double>(axis.edges ? axis.cells - 1 : axis.cells);
+    if (gaps < 1.0) return 0.0;
+    if (axis.scale == axis_scale::log) {
+        return std::abs(x) * std::abs(std::log(axis.highest / axis.lowest)) / gaps;
+    }
+    return std::abs(axis.highest - axis.lowest) / gaps;
+}
+
+template <class Distance>
+void moved_request::move(column_source& source, const range& valid, Distance by) {
+    std::vector<double>& table = tables_.emplace_back(source.size);
+    for (std::uint64_t i = 0; i < source.size; ++i) {
+        const double x = source.values[i];
+        table[i] = moved(x, by(x), valid);
+    }
+    source.values = table.data();
+}
+
+column_source& moved_request::source_of(const scene_axis& axis) {
+    return axis.kind == axis_kind::column ? request_.columns[axis.index]
+                                          : request_.parameters[axis.index];
+}
+
+const range& moved_request::valid_on(const scene_axis& axis) const {
+    const auto index = static_cast<std::size_t>(axis.index);
+    return axis.kind == axis_kind::column ? scene_.start_section().columns[index].valid
+                                          : scene_.info().parameters[index].valid;
+}
+
+void moved_request::move_axis(const scene_axis& axis, double sign) {
+    move(source_of(axis), valid_on(axis),
+         [&](double x) { return sign * displacement_on(axis, x, tolerance_); });
+}
+
+void moved_request::move_between_cells(const scene_axis& axis, double share) {
+    move(source_of(axis), valid_on(axis), [&](double x) { return share * spacing_at(axis, x); });
+}
+
+void moved_request::move_fixed(double sign) {
+    for (std::size_t c = 0; c < scene_.start.size(); ++c, sign = -sign) {
+        if (is_axis(axis_kind::column, c)) continue;
+        move_constant(request_.columns[c], sign, scene_.start_section().columns[c].valid);
+    }
+    for (std::size_t p = 0; p < scene_.parameters.size(); ++p, sign = -sign) {
+        if (is_axis(axis_kind::parameter, p)) continue;
+        move_constant(request_.parameters[p], sign, scene_.info().parameters[p].valid);
+    }
+}
+
+bool moved_request::is_axis(axis_kind kind, std::size_t index) const {
+    return std::any_of(scene_.axes.begin(), scene_.axes.end(), [&](const scene_axis& axis) {
+        return axis.kind == kind && static_cast<std::size_t>(axis.index) == index;
+    });
+}
+
+void moved_request::move_constant(column_source& source, double sign, const range& valid) {
+    if (source.values[0] == 0.0) return;
+    move(source, valid, [&](double x) { return sign * displacement_of(x, 0.0, tolerance_); });
+}
+
+}  // namespace hopscotch

@@ -1,0 +1,61 @@
+// Requests whose starts or fixed numbers are moved by a few roundings (or tolerances): the second
+// look of the layer `uncertain`.
+#pragma once
+
+#include "host/run/answers.hpp"
+#include "host/scene/scene.hpp"
+#include "kernels/ensemble/request.hpp"
+
+#include <vector>
+
+namespace hopscotch {
+
+/// How far a number moves: 16 ulp of the larger of |x| and `scale`, and where a flow is integrated
+/// to `tolerance` > 0 at least 100 (1/4 + that size) tolerances, ten times what a return may be off
+/// by (kernels/integrators/taylor.hpp).
+double displacement_of(double x, double scale, double tolerance);
+
+/// The same for a number on an axis. \param tolerance  of `tolerance_of`
+double displacement_on(const scene_axis& axis, double x, double tolerance);
+
+/// The tolerance that the scene's flows are integrated to; 0 where its variant integrates none.
+double tolerance_of(const scene& scene);
+
+/// How far apart the axis' cells are at x; 0 where all of them stand at one value.
+double spacing_at(const scene_axis& axis, double x);
+
+/// A request whose starts are moved in one way, with the tables that it points to. Numbers that
+/// would leave what is admissible stay; fixed ones also where they are zero, infinite or derived by
+/// the model: that switches terms off.
+class moved_request {
+public:
+    moved_request(const scene& scene, const ensemble_request& from, double tolerance)
+        : scene_(scene), request_(without_results(from)), tolerance_(tolerance) {}
+
+    ensemble_request& request() { return request_; }
+
+    void move_axis(const scene_axis& axis, double sign);
+
+    /// By a share of the distance between the axis' cells.
+    void move_between_cells(const scene_axis& axis, double share);
+
+    /// All numbers that are no axes, with alternating signs.
+    void move_fixed(double sign);
+
+private:
+    bool is_axis(axis_kind kind, std::size_t index) const;
+    column_source& source_of(const scene_axis& axis);
+    const range& valid_on(const scene_axis& axis) const;
+    void move_constant(column_source& source, double sign, const range& valid);
+
+    /// \param by  from a number to how far it moves
+    template <class Distance>
+    void move(column_source& source, const range& valid, Distance by);
+
+    const scene& scene_;
+    ensemble_request request_;
+    double tolerance_;
+    std::vector<std::vector<double>> tables_;
+};
+
+}  // namespace hopscotch

@@ -1,0 +1,128 @@
+// Is every wrong label flagged `uncertain`? The scenes of all models that have basins, and a tally
+// of cells in which labels, flags and truth are compared. Used by test_wrong_labels.cpp at reduced
+// size and by bench/uncertain.cpp at full size.
+#pragma once
+
+#include "host/run/audit.hpp"
+#include "host/run/uncertain.hpp"
+#include "tests/hard/boundary_zoom.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <numeric>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+namespace hopscotch::hard {
+
+struct boundary_case {
+    const char* name;
+    const char* scene;
+    std::vector<std::string> overrides;
+    int n_lines;            // in CI
+    std::uint64_t n_cells;  // on a line, to find changes
+};
+
+inline void PrintTo(const boundary_case& shown, std::ostream* to) { *to << shown.name; }
+
+/// Those whose truth is quick. Unimodal maps are missing: they have one attractor and so no
+/// boundaries.
+inline const std::vector<boundary_case>& quick_cases() {
+    static const std::vector<boundary_case> all{
+        {"passive_hopper", "quickstart", {"question.returns=200"}, 3, 200},
+        {"passive_hopper_energy_added", "chatterjee2002_fig8", {"question.returns=200"}, 2, 200},
+        {"passive_hopper_nonlinear", "chatterjee2002_nonlinear", {"question.returns=20"}, 1, 20},
+        {"raibert_pneumatic", "koditschek1991_crisis", {"question.returns=40"}, 4, 50},
+        {"openloop_hopper", "cham2007_fig8_basins", {"question.returns=50"}, 1, 50},
+        {"slip", "ghigliazza2005_basins", {"question.returns=50"}, 6, 100},
+        {"slip_gravity", "ghigliazza2005_gravity", {"question.returns=4"}, 1, 20},
+        {"mirror_line", "rizzi1994_line", {"question.returns=300"}, 6, 200},
+        {"mirror_planar", "rizzi1994_planar_basin", {}, 2, 50},
+        {"mirror_spatial", "rizzi1994_spatial_basin", {}, 2, 50},
+        {"paddle_juggler", "paddle_sticking", {"question.returns=40"}, 1, 50},
+    };
+    return all;
+}
+
+/// With those whose truth takes minutes.
+inline std::vector<boundary_case> all_cases() {
+    std::vector<boundary_case> all = quick_cases();
+    all.push_back({"passive_juggler",
+                   "quickstart",
+                   {"model.name=passive_juggler", "question.returns=200"},
+                   3,
+                   200});
+    all.push_back({"relief_valve",
+                   "relief_valve_basins",
+                   {"grid.axis.0.cells=8", "question.samples=16"},
+                   2,
+                   20});
+    all.push_back({"slip_pitching", "ghigliazza2005_fig5", {"question.returns=4"}, 2, 20});
+    all.push_back({"paddle_juggler_sticking", "shannon_juggler", {"question.returns=40"}, 1, 50});
+    return all;
+}
+
+inline scene scene_of(const boundary_case& which, const std::filesystem::path& source) {
+    return read_scene(source / "configs/scenes" / (std::string(which.scene) + ".toml"),
+                      which.overrides);
+}
+
+/// What was found.
+struct tally {
+    std::uint64_t cells = 0;
+    std::uint64_t flagged = 0;
+    std::uint64_t wrong = 0;
+    std::uint64_t wrong_unflagged = 0;
+
+    tally& operator+=(const tally& other) {
+        cells += other.cells;
+        flagged += other.flagged;
+        wrong += other.wrong;
+        wrong_unflagged += other.wrong_unflagged;
+        return *this;
+    }
+};
+
+/// Told of every wrong label without a flag: which of the cells, and the verdict.
+using complaint = std::function<void(std::size_t, const cell_verdict&)>;
+
+/// Labels, flags and truth of some cells of a scene.
+inline tally judge_cells(const scene& scene, const label_plan& plan, const kernel_choice& kernel,
+                         const std::vector<std::uint64_t>& cells, const complaint& complain) {
+    const std::vector<int> stored = answers_of(scene, plan, kernel, cells);
+    const std::vector<std::uint8_t> flags = certainty_of(scene, plan, kernel.run, cells);
+    std::vector<cell_verdict> verdicts(cells.size());
+    tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
+        verdicts[i] = judge(scene, plan, cells[i], stored[i]);
+    });
+    tally found{cells.size(), 0, 0, 0};
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        found.flagged += flags[i] != 0 ? 1 : 0;
+        found.wrong += verdicts[i].agrees() ? 0 : 1;
+        if (verdicts[i].agrees() || flags[i] != 0) continue;
+        ++found.wrong_unflagged;
+        complain(i, verdicts[i]);
+    }
+    return found;
+}
+
+/// Cells on either side of a change that are looked at.
+inline constexpr int reach = 24;
+
+/// The cells around one change, `step` apart.
+inline tally judge_around(const scene& line, const label_plan& plan, const kernel_choice& kernel,
+                          double at, double step, const complaint& complain) {
+    const scene zoomed = part_of(line, at - reach * step, at + reach * step, 2 * reach + 1);
+    return judge_cells(zoomed, plan, kernel, all_cells_of(zoomed), complain);
+}
+
+/// Where the i-th line lies, as a share of the axes it does not follow.
+inline double place_of_line(int i) { return std::fmod(0.25 + 0.618033988749895 * i, 1.0); }
+
+}  // namespace hopscotch::hard
