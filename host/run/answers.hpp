@@ -1,5 +1,5 @@
 // What orbits are compared by where the question is whether two of them end alike: label, outcome,
-// returns and events, or the motion of a chaos map. For the layer `uncertain`.
+// returns, events and last state, or the motion of a chaos map. For the layer `uncertain`.
 #pragma once
 
 #include "host/run/requests.hpp"
@@ -7,6 +7,8 @@
 #include "kernels/ensemble/request.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <span>
@@ -14,21 +16,24 @@
 
 namespace hopscotch {
 
-/// Answers of a request with its results bound: outcome, returns and events; label where the
-/// question has labels; motion instead of events where it asks for exponents.
+/// Answers of a request with its results bound: outcome, returns, events and states; label where
+/// the question has labels; motion instead of events and states where it asks for exponents.
 struct answer_view {
     explicit answer_view(const ensemble_request& of)
         : label(of.label),
           outcome(of.outcome),
           returns(of.returns),
           events(of.events),
-          motion(of.exponents.motion) {}
+          motion(of.exponents.motion) {
+        std::copy(std::begin(of.state), std::end(of.state), state);
+    }
 
     const std::int16_t* label;
     const std::uint8_t* outcome;
     const std::uint32_t* returns;
     const std::uint32_t* events;
     const std::uint8_t* motion;
+    const double* state[most_columns];
 };
 
 /// Answers with memory of their own.
@@ -43,6 +48,11 @@ struct answers {
             request.exponents.motion = motion.data();
         } else {
             request.events = events.data();
+            states.resize(scene.end_section().columns.size());
+            for (std::size_t c = 0; c < states.size(); ++c) {
+                states[c].resize(outcome.size());
+                request.state[c] = states[c].data();
+            }
         }
     }
 
@@ -53,6 +63,12 @@ struct answers {
         returns[place] = from.returns[i];
         if (from.events != nullptr) events[place] = from.events[i];
         if (from.motion != nullptr) motion[place] = from.motion[i];
+        states.resize(most_columns);
+        for (std::size_t c = 0; c < states.size(); ++c) {
+            if (from.state[c] == nullptr) continue;
+            states[c].resize(outcome.size());
+            states[c][place] = from.state[c][i];
+        }
     }
 
     std::vector<std::int16_t> label;
@@ -60,6 +76,7 @@ struct answers {
     std::vector<std::uint32_t> returns;
     std::vector<std::uint32_t> events;
     std::vector<std::uint8_t> motion;
+    std::vector<std::vector<double>> states;  // column by column
 };
 
 /// Does the i-th orbit end otherwise than the j-th of another run, as far as the question asks?
@@ -71,11 +88,30 @@ inline bool has_other_answer(const scene& scene, const answer_view& a, std::uint
     return scene.question.kind == "steps_to_fall" && a.returns[i] != b.returns[j];
 }
 
-/// Does it end alike, but after another number of returns or events? In a fractal basin all moved
-/// starts may happen to end alike; these numbers give them away.
+/// Have two orbits spent their returns without a label, and stand apart by more than 2^-10 of a
+/// column? A few roundings have then grown so much that nothing is known of the true orbit.
+inline bool have_lost_each_other(const scene& scene, const answer_view& a, std::uint64_t i,
+                                 const answer_view& b, std::uint64_t j) {
+    if (!scene.question.has_labels || static_cast<outcome>(a.outcome[i]) != outcome::budget ||
+        static_cast<outcome>(b.outcome[j]) != outcome::budget) {
+        return false;
+    }
+    for (std::size_t c = 0; c < most_columns; ++c) {
+        if (a.state[c] == nullptr || b.state[c] == nullptr) continue;
+        const double x = a.state[c][i];
+        const double y = b.state[c][j];
+        if (std::abs(x - y) > 0x1p-10 * std::max(std::abs(x), std::abs(y))) return true;
+    }
+    return false;
+}
+
+/// Does it end alike, but after another number of returns or events, or undecided elsewhere? In a
+/// fractal basin all moved starts may happen to end alike; these numbers give them away.
 inline bool has_other_events(const scene& scene, const answer_view& a, std::uint64_t i,
                              const answer_view& b, std::uint64_t j) {
-    return !is_chaos_map(scene) && (a.returns[i] != b.returns[j] || a.events[i] != b.events[j]);
+    if (is_chaos_map(scene)) return false;
+    return a.returns[i] != b.returns[j] || a.events[i] != b.events[j] ||
+           have_lost_each_other(scene, a, i, b, j);
 }
 
 /// The same cells, no results wanted.

@@ -152,11 +152,7 @@ cell_list unlike_probes(const scene& scene, const label_plan& plan, const kernel
     cell_list probed;
     for (const std::uint64_t place : places) probed.push_back(cells[place]);
     const cell_request at_cells = request_of(scene, plan, probed);
-    std::vector<bool> differs(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        // all that spend their returns have the same number of them, which tells nothing
-        differs[i] = static_cast<outcome>(found.outcome[places[i]]) == outcome::budget;
-    }
+    std::vector<bool> differs(places.size(), false);
     for (const double side : {probe_share, -probe_share}) {
         answers again(places.size());
         moved_request moved(scene, at_cells.request, 0.0);

@@ -3,10 +3,10 @@
 //
 // A surface at which the answer changes, a few roundings from a cell, separates the cell's two
 // neighbours along every axis that it is not parallel to. So cells are doubtful first that differ
-// from one of their 2 d nearest neighbours by label, outcome or number of returns or events, and
-// cells at the grid's edge, which lack neighbours. Of these only those stay doubtful that differ
-// from one of two further starts, 1/64 of the cells' distance away on either side, in a direction
-// to whose ratios no surface has reason to be parallel, and those that have spent their returns. A
+// from one of their 2 d nearest neighbours by label, outcome, number of returns or events (or last
+// state, if all returns are spent), and cells at the grid's edge, which lack neighbours. Of these
+// only those stay doubtful that differ from one of two further starts, 1/64 of the cells' distance
+// away on either side, in a direction to whose ratios no surface has reason to be parallel. A
 // surface parallel to all axes is one of the fixed numbers: whether moving these changes an answer
 // is tried at every eighth cell of every axis, and a change there makes the whole block doubtful.
 //

@@ -136,11 +136,17 @@ public:
         const bool is_compared =
             std::any_of(job.layers.begin(), job.layers.end(),
                         [](const auto& layer) { return layer.role == layer_role::uncertain; });
-        if (is_compared) want(request.events, events_, request.n_cells);
+        if (!is_compared || is_chaos_map(job.what)) return;
+        want(request.events, events_, request.n_cells);
+        states_.resize(job.what.end_section().columns.size());
+        for (std::size_t c = 0; c < states_.size(); ++c) {
+            want(request.state[c], states_[c], request.n_cells);
+        }
     }
 
 private:
-    static void want(std::uint32_t*& result, std::vector<std::uint32_t>& buffer, std::uint64_t n) {
+    template <class Number>
+    static void want(Number*& result, std::vector<Number>& buffer, std::uint64_t n) {
         if (result != nullptr) return;
         buffer.resize(n);
         result = buffer.data();
@@ -148,6 +154,7 @@ private:
 
     std::vector<std::uint32_t> returns_;
     std::vector<std::uint32_t> events_;
+    std::vector<std::vector<double>> states_;
 };
 
 using layer_buffers = std::vector<std::vector<std::byte>>;

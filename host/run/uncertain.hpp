@@ -6,9 +6,10 @@
 // orbit's roundings act like a small displacement of its start, unless it contracts so fast that a
 // displaced start is forgotten before it reaches the boundary; moving the parameters acts at every
 // return, as roundings do. That also finds an orbit that passes a guard closer than its error: the
-// moved ones pass on the other side, with another number of events. Sixteen ulp, because four are
-// too few: of cells one ulp apart at boundaries, wrong labels went unflagged where orbits dwell on
-// a ghost of a fixed point (tests/hard/test_wrong_labels.cpp, `bench uncertain`).
+// moved ones pass on the other side, with another number of events. Orbits that spend their returns
+// undecided are certain to be so only if the moved ones end in the same place. Sixteen ulp, because
+// four are too few: of cells one ulp apart at boundaries, wrong labels went unflagged where orbits
+// dwell on a ghost of a fixed point (tests/hard/test_wrong_labels.cpp, `bench uncertain`).
 #pragma once
 
 #include "host/map/certainty.hpp"

@@ -143,7 +143,9 @@ TEST(uncertain_cells, are_all_where_a_fixed_number_alone_decides) {
 
 TEST(uncertain_cells, cost_few_further_runs_where_neighbours_agree) {
     const scene scene = around_three(400, 0x1p-4, "steep");
-    const label_plan plan = plan_of(scene);
+    label_plan plan = plan_of(scene);
+    plan.n_traps = 2;
+    plan.traps.push_back({std::nextafter(1.5, 2.0), 1000.0, 2});
     std::vector<std::uint64_t> cells(scene.n_cells());
     std::iota(cells.begin(), cells.end(), std::uint64_t{0});
     std::uint64_t n_run = 0;
