@@ -88,21 +88,28 @@ inline bool has_other_answer(const scene& scene, const answer_view& a, std::uint
     return scene.question.kind == "steps_to_fall" && a.returns[i] != b.returns[j];
 }
 
-/// Have two orbits spent their returns without a label, and stand apart by more than 2^-10 of a
-/// column? A few roundings have then grown so much that nothing is known of the true orbit.
+/// Have two orbits spent their returns without a label (or without a fall, where that is asked
+/// for), and stand apart by more than 2^-10 of their size? A few roundings have then grown so much
+/// that nothing is known of the true orbit.
 inline bool have_lost_each_other(const scene& scene, const answer_view& a, std::uint64_t i,
                                  const answer_view& b, std::uint64_t j) {
-    if (!scene.question.has_labels || static_cast<outcome>(a.outcome[i]) != outcome::budget ||
-        static_cast<outcome>(b.outcome[j]) != outcome::budget) {
+    const bool has_labels = scene.question.has_labels;
+    if (!has_labels && scene.question.kind != "steps_to_fall") return false;
+    const outcome spent = has_labels ? outcome::budget : outcome::ok;
+    if (static_cast<outcome>(a.outcome[i]) != spent ||
+        static_cast<outcome>(b.outcome[j]) != spent) {
         return false;
     }
+    double apart = 0.0;
+    double size = 0.0;
     for (std::size_t c = 0; c < most_columns; ++c) {
         if (a.state[c] == nullptr || b.state[c] == nullptr) continue;
         const double x = a.state[c][i];
         const double y = b.state[c][j];
-        if (std::abs(x - y) > 0x1p-10 * std::max(std::abs(x), std::abs(y))) return true;
+        apart = std::max(apart, std::abs(x - y));
+        size = std::max({size, std::abs(x), std::abs(y)});
     }
-    return false;
+    return apart > 0x1p-10 * size;
 }
 
 /// Does it end alike, but after another number of returns or events, or undecided elsewhere? In a
