@@ -147,11 +147,10 @@ inline std::vector<family> families() {
         {"high_hop", hopper, "liftoff_speed", down_to(0.0), to_great},
         {"chatter", hopper, "restitution", up_to(1.0), {0.2, 1.0, 0.6}, 16.0, 1, true},
         {"short_thrust", linear_leg, "thrust_time", down_to(0.0), {1e-12, 1e-2}},
-        // hard springs cost the linear leg bits
         {"crawling_touchdown", linear_leg, "touchdown_speed", down_to(0.0), {1e-6, 1.0}},
         {"fast_touchdown", linear_leg, "touchdown_speed", down_to(0.0), to_great},
-        {"stiff_leg", linear_leg, "stiffness", down_to(0.0), {1e2, 1e6}, 128.0},
-        {"light_leg", linear_leg, "leg_mass_ratio", down_to(0.0), to_one, 32.0},
+        {"stiff_leg", linear_leg, "stiffness", down_to(0.0), {1e2, 1e6}},
+        {"light_leg", linear_leg, "leg_mass_ratio", down_to(0.0), to_one},
         {"stiff_spring", runner, "stiffness", down_to(0.0), {1e2, 1e6}},
         {"glancing_touchdown", runner, "angle", up_to(1.25), {1e-12, 0.9}},
         {"fast_runner", runner, "speed", down_to(0.0), {0.5, 1e3}},
