@@ -1,11 +1,20 @@
 """Figures of Ghigliazza, Altendorfer, Holmes and Koditschek (2005) with gravity in stance, and of the pitching runner,
 against the reproduced numbers of their page (sections 5, 6 and 11)."""
+import math
+
 import numpy
 
-from checks import (attractors, cells_around, curve_points, finish, holds, layers, near, no_audit, on_curve, run,
+from checks import (attractors, bisect, cells_around, curve_points, finish, holds, layers, near, no_audit, on_curve, run,
                     special)
+from runner_strides import air_sweep
 
 fold, gap = 7.1153, 8.4781  # speeds of k = 100, beta = 1
+
+
+def air_fold(beta):
+    """Stiffness below which the air spring has gaits without gravity: the largest sweep is pi - 2 beta."""
+    alpha = numpy.linspace(1e-4, beta - 1e-4, 20001)
+    return bisect(lambda c: float(air_sweep(alpha, c).max()) - (math.pi - 2 * beta), 1e-3, 5)
 
 
 def maps():
@@ -68,6 +77,9 @@ def branches():
     near("Fig. 15(a): the fold without gravity", 2 * less - more, 23 / (3.94185 * 1.25) ** 2, 1e-3)
     near("Fig. 15(a): the period doubles at gravity 1",
          on_curve(curve_points("ghigliazza2005_fig15_curves", "flip"), 1.0), 1.33, 6e-3)
+    run("branch", "ghigliazza2005_fig15b_curves")
+    curve = curve_points("ghigliazza2005_fig15b_curves", "fold")
+    near("Fig. 15(b): the fold without gravity", 2 * on_curve(curve, 0.02) - on_curve(curve, 0.04), air_fold(1.0), 2e-4)
     run("branch", "ghigliazza2005_fig15d_branch", "question.doublings=0")
     near("Fig. 15(d): the fold lies on the curve of (a)",
          special("ghigliazza2005_fig15d_branch", "fold", "stiffness")[0], on_curve(folds, 0.5), 1e-3)
