@@ -34,6 +34,7 @@ struct nonlinear_lane {
                         // without and 1 with rebound, 0 later
     Real fresh;         // 1 at the beginning of contact
     Real contact_time;  // of the contact under way; booked at its lift-off
+    Real settling;      // of the chatter before that contact; booked if it does not lift off
 
     // energy of the current return, as the square of the lift-off speed it would give
     Real energy;

@@ -52,11 +52,8 @@ HOPSCOTCH_DEVICE inline mask_of<Real> meet_ground(nonlinear_lane<Real>& lane,
     lane.in_contact = select(wanted, select(stays, one, zero), lane.in_contact);
     lane.fresh = select(stays, one, lane.fresh);
     lane.contact_time = select(wanted, zero, lane.contact_time);
-    const mask_of<Real> is_stuck =
-        stays & !(lane.damping > zero) & !(lane.energy - lane.loss > zero);
-    const Real settling = rest_of_chatter(rebound, pull, lane.restitution);
-    lane.time = select(is_stuck, lane.time + settling, lane.time);
-    return is_stuck;
+    lane.settling = select(wanted, rest_of_chatter(rebound, pull, lane.restitution), lane.settling);
+    return stays & !(lane.damping > zero) & !(lane.energy - lane.loss > zero);
 }
 
 /// Lift-off from sustained contact: its speed, the increment, the next flight.
@@ -193,6 +190,7 @@ HOPSCOTCH_DEVICE inline progress<Real> step_nonlinear(nonlinear_lane<Real>& lane
     const mask_of<Real> lifts = step.lifts | grazes;
     mask_of<Real> stuck = tops & !grazes;
     if (any(step.lands)) stuck = stuck | meet_ground(lane, step.lands, watch);
+    lane.time = select(stuck, lane.time + lane.settling, lane.time);
     mask_of<Real> returned = lifts;
     if (any(lifts)) {
         const mask_of<Real> dies = lift_off(lane, lane.rate, lifts, watch);

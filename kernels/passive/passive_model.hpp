@@ -133,7 +133,7 @@ HOPSCOTCH_DEVICE inline void take_parameters(nonlinear_lane<Real>& lane, const R
     lane.gradient = parameter[gravity_gradient];
     lane.lift_extension = extension_at(lane.spring, Real(1.0));
     lane.alpha = lane.s = lane.rate = lane.gap = lane.gap_rate = lane.pull = zero;
-    lane.in_contact = lane.gap_zeros = lane.fresh = lane.contact_time = zero;
+    lane.in_contact = lane.gap_zeros = lane.fresh = lane.contact_time = lane.settling = zero;
     lane.energy = lane.loss = lane.from_flight = zero;
     lane.time = lane.events = lane.bounces = lane.total_loss = zero;
 }

@@ -22,7 +22,7 @@ hopf = hopf_x * math.sqrt(hopf_x + offset)
 run("run", "relief_valve", no_audit, "grid.axis.0.cells=49", "grid.axis.0.edges=true", "grid.axis.1.cells=6")
 flow, x, p, outcome = layers("relief_valve", "flow_rate", "last_x", "p", "outcome")
 equilibrium = numpy.array([bisect(lambda at, q=q: at * math.sqrt(at + offset) - q, 1e-9, 9.0) for q in flow])[:, None]
-swings = (flow > 0.5) & (flow < hopf - 0.1)
+swings = (flow > 1.4) & (flow < hopf - 0.1)  # chaotic below, with maxima on either side
 holds("before the Hopf point the disc swings higher than its equilibrium", x[swings] > equilibrium[swings] + 0.01)
 rest, settled = outcome == 3, numpy.broadcast_to((flow > hopf + 0.1)[:, None], x.shape)
 holds("beyond it the disc comes to rest", rest[settled & (flow > 8.9)[:, None]])
