@@ -3,7 +3,7 @@
 
 #include "host/cli/event_word.hpp"
 #include "host/run/backends.hpp"
-#include "host/run/run_map.hpp"
+#include "host/run/run_choices.hpp"
 #include "host/run/state_rule.hpp"
 
 #include <cmath>

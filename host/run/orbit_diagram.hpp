@@ -4,7 +4,8 @@
 #pragma once
 
 #include "host/map/layout.hpp"
-#include "host/run/run_map.hpp"
+#include "host/run/run_choices.hpp"
+#include "host/run/run_report.hpp"
 #include "host/scene/scene.hpp"
 
 namespace hopscotch {

@@ -21,7 +21,6 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 
 namespace hopscotch {
 namespace {
@@ -425,8 +424,6 @@ void help_with_map(const scene& scene, const run_choices& choices, const run_hoo
     };
     compute_tiles(job, work, queue, run, stop, choices.n_threads);
 }
-
-int threads_for(int wanted) { return wanted > 0 ? wanted : tbb::info::default_concurrency(); }
 
 bool is_undecided(const scene& scene, int outcome_code) {
     switch (static_cast<outcome>(outcome_code)) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/run/estimate.hpp"
-#include "host/run/run_map.hpp"
+#include "host/run/run_report.hpp"
 
 #include <string>
 
