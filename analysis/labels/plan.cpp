@@ -143,12 +143,13 @@ label_plan plan_by_intervals(const scene& scene) {
     plan.point_columns = {std::string(scene.end_section().columns[0].name)};
     plan.point_axes = parameter_axes(scene);
     const auto points = parameter_points(scene, plan.point_axes);
+    const plan_points maps(scene, plan.point_axes);
     std::vector<std::vector<found_trap>> found(points.size());
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t i = 0; i < points.size(); ++i) {
         found[i] = traps_at(scene, i, points[i]);
         if (points.size() > most_proved_points) continue;
-        const map_point map = plan_points(scene, plan.point_axes).map_at(i);
+        const map_point map = maps.map_at(i);
         for (found_trap& one : found[i]) {
             if (one.trap.kind != attractor_kind::resting) prove(map, one.trap);
         }

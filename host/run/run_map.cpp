@@ -18,6 +18,7 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -74,8 +75,15 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
     report.is_finished = true;
 }
 
-/// Name under which the plan of a second search is kept.
-constexpr const char* kept_second_plan = "second_plan";
+/// Name under which a plan is kept: that of the first search, or of a second one from open cells.
+const char* kept_plan_of(std::span<const std::uint64_t> searched) {
+    return searched.empty() ? kept_plan : "second_plan";
+}
+
+/// The kernel that every process of a run computes with.
+kernel_in_use run_kernel(const scene& scene, const run_choices& choices, const run_hooks& hooks) {
+    return hooks.kernel ? hooks.kernel(scene) : map_kernel_of(scene, choices.backend);
+}
 
 /// Name under which is kept that the rounds of refinement have begun.
 constexpr const char* kept_refining = "refining";
@@ -97,7 +105,7 @@ public:
           hooks_(hooks),
           ranks_(ranks),
           stop_(choices.walltime),
-          kernel_(hooks.kernel ? hooks.kernel(scene) : map_kernel_of(scene, choices.backend)),
+          kernel_(run_kernel(scene, choices, hooks)),
           layout_(layout_of(scene)),
           layers_(chosen_layers(scene)),
           n_threads_(choices.n_threads > 0 ? choices.n_threads : ranks.default_threads()),
@@ -194,7 +202,7 @@ private:
 
     /// The same for shards and for runs that were begun elsewhere or by another version.
     void keep_plan(const std::string& digest) {
-        const char* name = plan_.searched.empty() ? kept_plan : kept_second_plan;
+        const char* name = kept_plan_of(plan_.searched);
         const std::string before = run_->kept(name);
         if (before.empty()) return run_->keep(name, digest);
         if (before == digest) return;
@@ -397,7 +405,7 @@ run_report run_map(const scene& scene, const run_choices& choices, const run_hoo
 void help_with_map(const scene& scene, const run_choices& choices, const run_hooks& hooks,
                    tile_queue& queue) {
     const stop_condition stop(choices.walltime);
-    kernel_in_use kernel = map_kernel_of(scene, choices.backend);
+    kernel_in_use kernel = run_kernel(scene, choices, hooks);
     const map_layout layout = layout_of(scene);
     const std::vector<layer_plan> layers = chosen_layers(scene);
     map_run run(layout, run_options{.map = choices.file,
@@ -409,7 +417,7 @@ void help_with_map(const scene& scene, const run_choices& choices, const run_hoo
     label_plan plan;
     if (hooks.plan && scene.question.has_labels) {
         plan = hooks.plan(scene, searched);
-        if (run.kept(searched.empty() ? kept_plan : kept_second_plan) != plan_digest(plan)) {
+        if (run.kept(kept_plan_of(searched)) != plan_digest(plan)) {
             throw device_error(choices.file.string() +
                                " (its owner has found other attractors: another kind of "
                                "processor); nodes of one kind?");

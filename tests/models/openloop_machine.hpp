@@ -37,9 +37,10 @@ using runner = orbit_answer (*)(const orbit_row&);
 
 inline const orbit_functions& table() { return testing_models::orbits_of<openloop_hopper>(); }
 
-inline orbit run_texts(runner run, const machine& m, int section,
-                       const std::vector<std::string>& columns, std::uint32_t returns,
-                       bool derivative = false) {
+/// Calls call(row) with the orbit of a machine from a start.
+template <class Call>
+auto with_row(const machine& m, int section, const std::vector<std::string>& columns,
+              std::uint32_t returns, const Call& call) {
     const std::vector<std::string> parameters = m.texts();
     const int options[] = {m.guard};
     orbit_row row;
@@ -49,8 +50,16 @@ inline orbit run_texts(runner run, const machine& m, int section,
     row.columns = columns;
     row.parameters = parameters;
     row.returns = returns;
-    row.derivative = derivative;
-    return run(row);
+    return call(row);
+}
+
+inline orbit run_texts(runner run, const machine& m, int section,
+                       const std::vector<std::string>& columns, std::uint32_t returns,
+                       bool derivative = false) {
+    return with_row(m, section, columns, returns, [&](orbit_row& row) {
+        row.derivative = derivative;
+        return run(row);
+    });
 }
 
 inline orbit run(const machine& m, int section, double first, double second,
@@ -148,17 +157,9 @@ struct recorder final : orbit_observer {
 
 inline recorder watch(const machine& m, double y, double v, std::uint32_t returns = 1,
                       int section = 0) {
-    const std::vector<std::string> columns{print_real(y), print_real(v)}, parameters = m.texts();
-    const int options[] = {m.guard};
-    orbit_row row;
-    row.section = section;
-    row.options = options;
-    row.variant = m.variant();
-    row.columns = columns;
-    row.parameters = parameters;
-    row.returns = returns;
     recorder seen;
-    table().trace(row, seen);
+    with_row(m, section, {print_real(y), print_real(v)}, returns,
+             [&](const orbit_row& row) { table().trace(row, seen); });
     return seen;
 }
 
