@@ -23,9 +23,7 @@ void add_replay(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
 void add_models(CLI::App& program, int& exit_code);
 void add_version(CLI::App& program, int& exit_code);
-
-/// Commands whose names are promised but which this version does not have.
-void add_absent(CLI::App& program, int& exit_code);
+void add_bench(CLI::App& program, int& exit_code);
 
 /// The whole program: parses, runs, and turns every error into one line and its exit code.
 int run_program(int argc, const char* const* argv);

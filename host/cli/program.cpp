@@ -34,7 +34,7 @@ void add_commands(CLI::App& program, int& code) {
     add_info(program, code);
     add_models(program, code);
     add_version(program, code);
-    add_absent(program, code);
+    add_bench(program, code);
 }
 
 void check_command(const CLI::App& program, int argc, const char* const* argv) {

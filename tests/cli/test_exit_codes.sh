@@ -14,6 +14,8 @@ claim_exit "a misspelt option is usage" 2 hopscotch run "$scene" --thread 2
 claim_contains "and the closest option is named" "--threads?" err.txt
 claim_exit "an unknown model is usage" 2 hopscotch models passive_hoper
 claim_contains "and the closest model is named" "passive_hopper?" err.txt
+claim_exit "benchmarks are not in the program" 2 hopscotch bench return_map
+claim_contains "and it is told where they are" "./hopscotch bench in a checkout?" err.txt
 claim_exit "a walltime that is none is usage" 2 hopscotch run "$scene" --walltime soon
 
 claim_exit "a missing scene is bad input" 3 hopscotch run none.toml
