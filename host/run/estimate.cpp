@@ -5,6 +5,7 @@
 #include "host/run/backends.hpp"
 #include "host/run/orbit_diagram.hpp"
 #include "host/run/surveys.hpp"
+#include "host/run/thread_limit.hpp"
 #include "host/scene/grid.hpp"
 
 #include <algorithm>
@@ -96,6 +97,7 @@ run_estimate estimate(const scene& scene, const run_choices& choices, const run_
     run_estimate result;
     result.backend = name_of(kernel.which);
     result.n_threads = threads_for(choices.n_threads);
+    const thread_limit threads(result.n_threads);
     result.n_cells = layout.n_cells();
     result.n_tiles = layout.n_tiles();
     result.tile = layout.tile;

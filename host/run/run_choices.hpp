@@ -14,6 +14,7 @@ struct run_choices {
     std::filesystem::path file;  // empty: the scene's
     std::string backend = "auto";
     int n_threads = 0;  // 0: as many as the machine has
+    int n_at_once = 1;  // maps of a sweep that share these threads, side by side
     if_exists existing = if_exists::refuse;
     std::optional<double> walltime;  // seconds
     bool keeps_tiles = false;        // the map file refers to tile files

@@ -9,6 +9,7 @@
 #include "host/run/plan_digest.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
+#include "host/run/thread_limit.hpp"
 #include "host/run/tile_pipeline.hpp"
 #include "host/run/tiles.hpp"
 #include "host/scene/grid.hpp"
@@ -21,7 +22,6 @@
 #include <span>
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 namespace hopscotch {
 namespace {
@@ -109,8 +109,7 @@ public:
           layout_(layout_of(scene)),
           layers_(chosen_layers(scene)),
           n_threads_(choices.n_threads > 0 ? choices.n_threads : ranks.default_threads()),
-          threads_(tbb::global_control::max_allowed_parallelism,
-                   static_cast<std::size_t>(n_threads_)) {
+          threads_(n_threads_, choices.n_at_once) {
         report_.file = choices.file.empty() ? scene.output.file : choices.file;
         report_.backend = kernel_.backends();
         report_.n_cells = layout_.n_cells();
@@ -357,7 +356,7 @@ private:
     map_layout layout_;
     std::vector<layer_plan> layers_;
     int n_threads_;
-    tbb::global_control threads_;
+    thread_limit threads_;
     double n_all_threads_ = 0.0;
     std::optional<map_run> run_;
     std::vector<std::uint64_t> missing_;

@@ -8,6 +8,7 @@
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/sweep_table.hpp"
+#include "host/run/thread_limit.hpp"
 #include "host/scene/grid.hpp"
 #include "host/scene/sweep.hpp"
 #include "host/store/run_directory.hpp"
@@ -21,7 +22,6 @@
 #include <optional>
 #include <thread>
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
@@ -85,8 +85,7 @@ public:
           ranks_(ranks),
           stop_(choices.walltime),
           n_threads_(choices.n_threads > 0 ? choices.n_threads : ranks.default_threads()),
-          threads_(tbb::global_control::max_allowed_parallelism,
-                   static_cast<std::size_t>(n_threads_)) {
+          threads_(n_threads_) {
         report_.file = choices.file.empty() ? sweep.output.file : choices.file;
         report_.directory = sweep_directory_of(report_.file);
         report_.n_cells_per_map = layout().n_cells();
@@ -206,6 +205,11 @@ private:
         for (const fs::path& path : own_maps()) fs::remove_all(path);
     }
 
+    /// Threads that work on maps side by side.
+    int n_at_once(std::size_t n_maps) const {
+        return static_cast<int>(std::min(n_maps, static_cast<std::size_t>(n_threads_)));
+    }
+
     run_choices choices_of_map(std::uint64_t point) const {
         run_choices choices = choices_;
         choices.file = map_file(point);
@@ -299,7 +303,8 @@ private:
         const scene map = map_scene(sweep_, point);
         member_of_sweep alone([&](const run_tally& tally) { all.count(tally); },
                               ranks_.size() > 1 ? &all.tiles : nullptr, index);
-        const run_choices choices = choices_of_map(point);
+        run_choices choices = choices_of_map(point);
+        choices.n_at_once = n_at_once(all.points.size());
         const run_report done = run_map(map, choices, hooks_.of_map(map, choices.file), alone);
         all.tiles.close(index);  // nobody waits for a map that has not been opened, a diagram's
         if (done.is_finished) {
@@ -363,6 +368,7 @@ private:
     }
 
     void look_at(swept_map& map) {
+        const thread_limit share(n_threads_, n_at_once(report_.maps.size()));
         const fs::path file = map_file(map.point);
         std::error_code ignored;
         if (!fs::exists(file, ignored)) return;
@@ -401,7 +407,7 @@ private:
     team& ranks_;
     stop_condition stop_;
     int n_threads_;
-    tbb::global_control threads_;
+    thread_limit threads_;
     std::unique_ptr<run_lock> lock_;
     std::mutex mutex_;
     sweep_report report_;
