@@ -5,8 +5,8 @@
 #include "host/run/attributes.hpp"
 #include "host/run/open_cells.hpp"
 #include "host/run/audit.hpp"
-#include "host/run/orbit_diagram.hpp"
 #include "host/run/requests.hpp"
+#include "host/scene/diagram_grid.hpp"
 #include "host/store/sweep_index.hpp"
 #include "host/store/verify.hpp"
 

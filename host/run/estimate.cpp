@@ -3,7 +3,7 @@
 
 #include "host/run/requests.hpp"
 #include "host/run/backends.hpp"
-#include "host/run/orbit_diagram.hpp"
+#include "host/scene/diagram_grid.hpp"
 #include "host/run/surveys.hpp"
 #include "host/run/thread_limit.hpp"
 #include "host/scene/grid.hpp"
@@ -71,6 +71,16 @@ sample_timing time_samples(const scene& scene, const label_plan& plan,
     return timing;
 }
 
+/// One orbit after the other along a diagram's parameter; some of them are timed.
+double seconds_of_sweep(const scene& scene, std::string_view backend) {
+    const kernel_choice kernel = kernel_of(scene, backend == "auto" ? "scalar" : backend);
+    constexpr std::uint64_t n_timed = 8;
+    double seconds = 0.0;
+    const std::vector<std::uint64_t> cells = sample_cells(scene.n_cells(), n_timed, 1);
+    for (const std::uint64_t cell : cells) seconds += time_cells(scene, {}, kernel, {cell}).seconds;
+    return seconds / static_cast<double>(cells.size()) * static_cast<double>(scene.axes[0].cells);
+}
+
 }  // namespace
 
 std::vector<std::uint64_t> sample_cells(std::uint64_t n_cells, std::uint64_t n,
@@ -93,7 +103,7 @@ std::vector<std::uint64_t> sample_cells(std::uint64_t n_cells, std::uint64_t n,
 run_estimate estimate(const scene& scene, const run_choices& choices, const run_hooks& hooks) {
     check_is_map(scene);
     const kernel_choice kernel = kernel_of(scene, choices.backend);
-    const map_layout layout = is_orbit_diagram(scene) ? diagram_layout(scene) : layout_of(scene);
+    const map_layout layout = layout_of(scene);
     run_estimate result;
     result.backend = name_of(kernel.which);
     result.n_threads = threads_for(choices.n_threads);
@@ -108,7 +118,7 @@ run_estimate estimate(const scene& scene, const run_choices& choices, const run_
     result.bytes = bytes_per_cell * result.n_cells;
     // a tile in flight: its numbers, their compressed copy, and a table of parameter points
     const std::uint64_t tokens =
-        std::min(2 * static_cast<std::uint64_t>(result.n_threads), result.n_tiles);
+        std::min(static_cast<std::uint64_t>(result.n_threads), result.n_tiles);
     result.memory = tokens * tile_cells * (2 * bytes_per_cell + sizeof(double));
 
     label_plan plan;
@@ -120,6 +130,10 @@ run_estimate estimate(const scene& scene, const run_choices& choices, const run_
     result.undecided = static_cast<double>(timing.undecided) / sampled;
     const int at_once = kernel.which == backend::cuda ? 1 : result.n_threads;
     result.seconds = timing.seconds / sampled * n_cells / at_once;
+    if (is_orbit_diagram(scene) && has_sweeps(scene)) {
+        const double sweep = seconds_of_sweep(scene, choices.backend);
+        result.seconds = std::max(sweep, result.seconds + 2.0 * sweep / at_once);
+    }
     return result;
 }
 

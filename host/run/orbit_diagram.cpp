@@ -1,307 +1,259 @@
-// Settles orbits, records their returns, writes them as a map.
+// Settles orbits and records their returns, tile by tile.
 #include "host/run/orbit_diagram.hpp"
 
-#include "host/run/attributes.hpp"
+#include "host/run/orbit_batch.hpp"
 #include "host/run/requests.hpp"
-#include "host/run/stop_condition.hpp"
 #include "host/scene/grid.hpp"
-#include "host/scene/layers.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstring>
 #include <limits>
-#include <mutex>
-
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 namespace hopscotch {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using clock_type = std::chrono::steady_clock;
 
-bool has_sweeps(const scene& scene) { return scene.question.number("sweeps") > 0.0; }
+double seconds_since(clock_type::time_point begin) {
+    return std::chrono::duration<double>(clock_type::now() - begin).count();
+}
 
-/// Orbits that are followed together: their states, and why those that ended have ended.
-struct orbit_batch {
-    std::vector<std::vector<double>> columns;  // [column][orbit], of the section below
-    std::vector<std::vector<double>> parameters;
-    std::vector<std::uint8_t> ends;
-    int section = 0;
-
-    std::size_t size() const { return ends.size(); }
-    bool goes_on(std::size_t i) const { return ends[i] == static_cast<std::uint8_t>(outcome::ok); }
-};
-
-/// Recorded states: [column][(parameter, orbit, sample)], and outcomes in the same order.
-struct recorded_states {
-    std::vector<std::vector<double>> columns;
-    std::vector<std::uint8_t> ends;
-};
-
-class diagram_computation {
+/// One tile's numbers while they are recorded. States of orbits that have ended stay NaN.
+class recorded_tile {
 public:
-    diagram_computation(const scene& scene, const map_layout& layout, const kernel_choice& kernel,
-                        const stop_condition& stop)
-        : scene_(scene),
-          kernel_(kernel),
-          stop_(stop),
-          n_points_(layout.axes[0].size()),
-          n_orbits_(layout.axes[orbit_axis].size()),
-          n_samples_(layout.axes[sample_axis].size()) {
-        const std::size_t n = layout.n_cells();
-        states_.columns.assign(scene.end_section().columns.size(), std::vector<double>(n, nan));
-        states_.ends.assign(n, 0);
-    }
-
-    /// \error interruption
-    void compute() {
-        const std::size_t n_jobs = (scene_.n_cells() + rows_per_job - 1) / rows_per_job;
-        const std::size_t n_sweeps = has_sweeps(scene_) ? 2 : 0;
-        tbb::parallel_for(std::size_t{0}, n_sweeps + n_jobs, [&](std::size_t job) {
-            if (job < n_sweeps) {
-                sweep(job == 0);
-            } else {
-                settle_starts((job - n_sweeps) * rows_per_job);
-            }
-        });
-    }
-
-    const recorded_states& states() const { return states_; }
-    lane_statistics lanes() const { return lanes_; }
-
-private:
-    static constexpr std::size_t rows_per_job = 2048;
-
-    /// Cells [first, first + rows_per_job) of the scene's grid, each a parameter point and a start.
-    void settle_starts(std::size_t first) {
-        const std::size_t last = std::min<std::size_t>(first + rows_per_job, scene_.n_cells());
-        orbit_batch batch;
-        std::vector<std::pair<std::size_t, std::size_t>> places;  // parameter point, orbit
-        for (std::size_t cell = first; cell < last; ++cell) {
-            const std::vector<std::uint64_t> coordinates = coordinates_of(scene_, cell);
-            add(batch, start_of(scene_, coordinates));
-            places.emplace_back(coordinates[0],
-                                start_of_cell(coordinates) + (has_sweeps(scene_) ? 2 : 0));
-        }
-        batch.section = scene_.section;
-        follow(batch, places);
-    }
-
-    /// Along the first axis; every orbit starts where the one before it ended, the first one and
-    /// those after an orbit that ended start at the grid's first start.
-    void sweep(bool is_upward) {
-        std::vector<std::uint64_t> coordinates(scene_.axes.size(), 0);
-        std::vector<double> columns;
-        for (std::size_t i = 0; i < n_points_; ++i) {
-            coordinates[0] = is_upward ? i : n_points_ - 1 - i;
-            cell_start start = start_of(scene_, coordinates);
-            orbit_batch batch;
-            batch.section = columns.empty() ? scene_.section : end_section();
-            if (!columns.empty()) {
-                // an axis that is a state column (a conserved one) keeps its own value
-                const scene_axis& axis = scene_.axes[0];
-                const auto index = static_cast<std::size_t>(axis.index);
-                if (axis.kind == axis_kind::column) columns[index] = start.columns[index];
-                start.columns = columns;
-            }
-            add(batch, start);
-            follow(batch, {{coordinates[0], is_upward ? std::size_t{0} : std::size_t{1}}});
-            columns.clear();
-            if (!batch.goes_on(0)) continue;
-            for (const auto& column : batch.columns) columns.push_back(column[0]);
-        }
-    }
-
-    /// Index of a cell's start, in C order over the axes after the first.
-    std::size_t start_of_cell(const std::vector<std::uint64_t>& coordinates) const {
-        std::size_t start = 0;
-        for (std::size_t axis = 1; axis < scene_.axes.size(); ++axis) {
-            start = start * scene_.axes[axis].cells + coordinates[axis];
-        }
-        return start;
-    }
-
-    static void add(orbit_batch& batch, const cell_start& start) {
-        batch.columns.resize(start.columns.size());
-        batch.parameters.resize(start.parameters.size());
-        for (std::size_t c = 0; c < start.columns.size(); ++c) {
-            batch.columns[c].push_back(start.columns[c]);
-        }
-        for (std::size_t p = 0; p < start.parameters.size(); ++p) {
-            batch.parameters[p].push_back(start.parameters[p]);
-        }
-        batch.ends.push_back(static_cast<std::uint8_t>(outcome::ok));
-    }
-
-    /// Past the transient, then return by return into the recorded states.
-    void follow(orbit_batch& batch,
-                const std::vector<std::pair<std::size_t, std::size_t>>& places) {
-        const auto transient = static_cast<std::uint32_t>(scene_.question.number("transient"));
-        if (transient > 0) advance(batch, transient);
-        for (std::size_t sample = 0; sample < n_samples_; ++sample) {
-            if (stop_condition::is_interrupted() || stop_.is_due()) throw interruption();
-            advance(batch, 1);
-            for (std::size_t i = 0; i < batch.size(); ++i) {
-                const auto [point, orbit] = places[i];
-                const std::size_t at = (point * n_orbits_ + orbit) * n_samples_ + sample;
-                states_.ends[at] = batch.ends[i];
-                if (!batch.goes_on(i)) continue;
-                for (std::size_t c = 0; c < states_.columns.size(); ++c) {
-                    states_.columns[c][at] = batch.columns[c][i];
+    recorded_tile(const tile_job& job, const tile_box& box) : layers_(job.layers) {
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        data_.box = box;
+        for (const layer_plan& layer : layers_) {
+            const number_type type = layer.description.type;
+            auto& values = data_.layers.emplace_back(box.n_cells() * bytes_of(type));
+            if (type == number_type::float64) {
+                for (std::uint64_t cell = 0; cell < box.n_cells(); ++cell) {
+                    std::memcpy(values.data() + cell * sizeof nan, &nan, sizeof nan);
                 }
             }
         }
     }
 
-    int end_section() const { return scene_.start_section().returns_to; }
-
-    /// Orbits that have ended stay as they are.
-    void advance(orbit_batch& batch, std::uint32_t returns) {
-        const std::size_t n = batch.size();
-        ensemble_request request;
-        request.n_cells = n;
-        request.section = batch.section;
-        for (std::size_t c = 0; c < batch.columns.size(); ++c) {
-            request.columns[c] = {batch.columns[c].data(), 1, n};
+    /// Where the i-th orbit of the batch is, `place` counted over the tile's points and orbits.
+    void record(const orbit_batch& batch, std::size_t i, std::uint64_t place,
+                std::uint64_t sample) {
+        const std::uint64_t cell = place * data_.box.extent[sample_axis] + sample;
+        for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+            std::byte* const values = data_.layers[layer].data();
+            if (layers_[layer].role == layer_role::outcome) {
+                values[cell] = static_cast<std::byte>(batch.end(i));
+            } else if (batch.goes_on(i)) {
+                const double value = batch.state(static_cast<std::size_t>(layers_[layer].index), i);
+                std::memcpy(values + cell * sizeof value, &value, sizeof value);
+            }
         }
-        for (std::size_t p = 0; p < batch.parameters.size(); ++p) {
-            request.parameters[p] = {batch.parameters[p].data(), 1, n};
-        }
-        std::copy(scene_.options.begin(), scene_.options.end(), request.options);
-        request.max_returns = returns;
-        request.max_steps = static_cast<double>(scene_.accuracy.max_events);
-        std::vector<std::uint8_t> ends(n);
-        std::vector<std::vector<double>> next(states_.columns.size(), std::vector<double>(n));
-        request.outcome = ends.data();
-        for (std::size_t c = 0; c < next.size(); ++c) request.state[c] = next[c].data();
-        const lane_statistics lanes = kernel_.run(request);
-        for (std::size_t i = 0; i < n; ++i) {
-            if (batch.goes_on(i)) batch.ends[i] = ends[i];
-        }
-        batch.columns = std::move(next);
-        batch.section = end_section();
-        const std::lock_guard lock(mutex_);
-        lanes_ += lanes;
     }
 
-    const scene& scene_;
-    const kernel_choice& kernel_;
-    const stop_condition& stop_;
-    std::size_t n_points_;
-    std::size_t n_orbits_;
-    std::size_t n_samples_;
-    recorded_states states_;
-    lane_statistics lanes_;
-    std::mutex mutex_;
+    tile_result result(const lane_statistics& lanes, double seconds) && {
+        const std::uint64_t n_cells = data_.box.n_cells();
+        return {std::move(data_), lanes, seconds, n_cells};
+    }
+
+private:
+    const std::vector<layer_plan>& layers_;
+    tile_data data_;
 };
 
-/// The numbers of one tile, cut from the whole diagram: tiles divide the parameter only.
-tile_data tile_of(const map_layout& layout, const std::vector<layer_plan>& layers,
-                  const recorded_states& states, std::uint64_t index) {
-    tile_data tile{box_of(layout, index), {}};
-    const std::size_t per_point = layout.axes[orbit_axis].size() * layout.axes[sample_axis].size();
-    const std::size_t first = tile.box.origin[0] * per_point;
-    const std::size_t n = tile.box.n_cells();
-    for (const layer_plan& layer : layers) {
-        auto& buffer = tile.layers.emplace_back(n * bytes_of(layer.description.type));
-        const void* from =
-            layer.role == layer_role::outcome
-                ? static_cast<const void*>(states.ends.data() + first)
-                : states.columns[static_cast<std::size_t>(layer.index)].data() + first;
-        std::memcpy(buffer.data(), from, buffer.size());
-    }
-    return tile;
+/// Coordinates along the scene's own axes of a start, `start` counted in C order over the axes
+/// after the first.
+std::vector<std::uint64_t> coordinates_of_start(const scene& scene, std::uint64_t point,
+                                                std::uint64_t start) {
+    const std::uint64_t n_starts = scene.n_cells() / scene.axes[0].cells;
+    return coordinates_of(scene, point * n_starts + start);
 }
 
-axis numbered_axis(std::string name, std::string meaning, std::uint64_t first, std::uint64_t n) {
-    axis result{std::move(name), "1", std::move(meaning), "linear", {}};
-    for (std::uint64_t i = 0; i < n; ++i) result.values.push_back(static_cast<double>(first + i));
-    return result;
+/// Past the transient, then return by return; `record` is told each time how many it has seen.
+template <class Record>
+void follow(const scene& scene, orbit_batch& batch, Record&& record) {
+    const auto transient = static_cast<std::uint32_t>(scene.question.number("transient"));
+    if (transient > 0) batch.advance(transient);
+    for (std::uint64_t sample = 0; sample < scene.question.returns; ++sample) {
+        batch.advance(1);
+        record(sample);
+    }
 }
 
 }  // namespace
 
-bool is_orbit_diagram(const scene& scene) { return scene.question.kind == "orbit_diagram"; }
-
-map_layout diagram_layout(const scene& scene) {
-    constexpr std::uint64_t cells_per_tile = 1 << 18;
-    map_layout layout = layout_of(scene);
-    const axis parameter = layout.axes[0];
-    const std::uint64_t n_starts = scene.n_cells() / parameter.size();
-    const std::uint64_t first = has_sweeps(scene) ? 0 : 2;
-    layout.axes = {
-        parameter,
-        numbered_axis("orbit",
-                      "0: sweep of rising parameter, 1: of falling parameter, 2 and above: starts",
-                      first, n_starts + 2 - first),
-        numbered_axis("sample", "returns after the transient", 1, scene.question.returns)};
-    const std::uint64_t per_point =
-        layout.axes[orbit_axis].size() * layout.axes[sample_axis].size();
-    const std::uint64_t points = std::max<std::uint64_t>(cells_per_tile / per_point, 1);
-    layout.tile = {std::min(points, parameter.size()), layout.axes[orbit_axis].size(),
-                   layout.axes[sample_axis].size()};
-    return layout;
+orbit_diagram::orbit_diagram(const tile_job& job, const map_run& run, const stop_condition& stop,
+                             const shard& part, std::string_view backend,
+                             std::vector<std::uint64_t> missing)
+    : job_(job),
+      run_(run),
+      stop_(stop),
+      one_orbit_(kernel_of(job.what, backend == "auto" ? "scalar" : backend)),
+      missing_(std::move(missing)) {
+    const std::size_t n_columns = job.what.end_section().columns.size();
+    for (std::size_t column = 0; column < n_columns; ++column) {
+        for (std::size_t i = 0; i < job.layers.size(); ++i) {
+            const layer_plan& layer = job.layers[i];
+            const bool holds_it =
+                layer.role == layer_role::state && layer.index == static_cast<int>(column);
+            if (holds_it) state_layers_.push_back(i);
+        }
+    }
+    if (state_layers_.size() != n_columns) state_layers_.clear();
+    if (has_sweeps(job.what)) {
+        add_sweep(rising_orbit, part);
+        add_sweep(falling_orbit, part);
+    }
+    add_starts();
 }
 
-void check_diagram(const scene& scene) {
-    for (std::size_t i = 1; i < scene.axes.size(); ++i) {
-        if (scene.axes[i].kind == axis_kind::column) continue;
-        throw scene_error({scene.question.place, "question.kind", "\"orbit_diagram\"",
-                           fmt::format("axis {} of the grid is a second parameter", i),
-                           "only the first axis; the ones after it are state columns: starts"});
-    }
-    const scene_axis& first = scene.axes[0];
-    const bool is_start_only = scene.start_section().returns_to != scene.section;
-    if (first.kind == axis_kind::column && is_start_only) {
-        throw scene_error(
-            {scene.question.place, "question.kind", "\"orbit_diagram\"",
-             fmt::format("{} is no column of the section that returns end on", first.name),
-             "a parameter as the first axis"});
+bool orbit_diagram::is_missing(std::uint64_t tile) const {
+    return std::binary_search(missing_.begin(), missing_.end(), tile);
+}
+
+/// All tiles of a sweep in the order of its passage.
+std::vector<std::uint64_t> orbit_diagram::sweep_tiles(std::uint64_t orbit) const {
+    const std::vector<std::uint64_t> along = job_.layout.tiles_along();
+    std::vector<std::uint64_t> tiles;
+    for (std::uint64_t i = 0; i < along[0]; ++i) tiles.push_back(i * along[orbit_axis] + orbit);
+    if (orbit == falling_orbit) std::reverse(tiles.begin(), tiles.end());
+    return tiles;
+}
+
+void orbit_diagram::add_sweep(std::uint64_t orbit, const shard& part) {
+    const std::vector<std::uint64_t> tiles = sweep_tiles(orbit);
+    const auto missing = [&](std::uint64_t tile) { return is_missing(tile); };
+    const auto first = std::find_if(tiles.begin(), tiles.end(), missing);
+    if (first == tiles.end()) return;
+    const auto last = std::find_if(tiles.rbegin(), tiles.rend(), missing).base();
+    auto begin = first;
+    const auto is_there = [&](std::uint64_t tile) {
+        return !state_layers_.empty() && part.owns(tile);
+    };
+    while (begin != tiles.begin() && !is_there(*(begin - 1))) --begin;
+    heads_.push_back(*first);
+    pieces_[*first] = {begin, last};
+}
+
+void orbit_diagram::add_starts() {
+    const std::uint64_t n_along = job_.layout.tiles_along()[orbit_axis];
+    const std::uint64_t n_sweeps = has_sweeps(job_.what) ? first_start : 0;
+    const std::vector<std::uint64_t> full = full_tile(job_.layout);
+    const std::uint64_t most = std::max<std::uint64_t>(orbits_at_once / (full[0] * full[1]), 1);
+    std::vector<std::uint64_t>* piece = nullptr;
+    for (const std::uint64_t tile : missing_) {
+        if (tile % n_along < n_sweeps) continue;
+        const bool is_full =
+            piece == nullptr || piece->size() == most || piece->front() / n_along != tile / n_along;
+        if (is_full) {
+            heads_.push_back(tile);
+            piece = &pieces_[tile];
+        }
+        piece->push_back(tile);
     }
 }
 
-run_report run_diagram(const scene& scene, const run_choices& choices) {
-    check_diagram(scene);
-    const stop_condition stop(choices.walltime);
-    const kernel_choice kernel = kernel_of(scene, choices.backend);
-    const map_layout layout = diagram_layout(scene);
-    run_report report;
-    report.file = choices.file.empty() ? scene.output.file : choices.file;
-    report.backend = name_of(kernel.which);
-    report.n_cells = layout.n_cells();
-    report.n_tiles = layout.n_tiles();
-    map_run run(layout, {.map = report.file,
-                         .fingerprint = scene.fingerprint,
-                         .attributes = attributes_of(scene, kernel),
-                         .existing = choices.existing,
-                         .keeps_tiles = choices.keeps_tiles});
-    report.notes = run.notes();
-    report.is_finished = run.complete();
-    if (report.is_finished) return report;
+void orbit_diagram::compute(const tile_box& head, const tile_sink& store) {
+    const std::vector<std::uint64_t>& tiles = pieces_.at(head.index);
+    const bool is_sweep = has_sweeps(job_.what) && head.origin[orbit_axis] < first_start;
+    is_sweep ? compute_sweep(tiles, store) : compute_starts(tiles, store);
+}
 
-    diagram_computation diagram(scene, layout, kernel, stop);
-    tbb::task_arena arena(threads_for(choices.n_threads));
-    try {
-        arena.execute([&] { diagram.compute(); });
-    } catch (const interruption&) {
-        report.n_missing = report.n_tiles;
-        return report;
+void orbit_diagram::compute_starts(const std::vector<std::uint64_t>& tiles,
+                                   const tile_sink& store) const {
+    const auto begin = clock_type::now();
+    const std::uint64_t n_sweeps = has_sweeps(job_.what) ? first_start : 0;
+    orbit_batch batch(job_.what, job_.kernel, job_.what.section);
+    std::vector<recorded_tile> records;
+    std::vector<std::pair<std::size_t, std::uint64_t>> places;  // tile, place in it
+    for (const std::uint64_t tile : tiles) {
+        const tile_box box = box_of(job_.layout, tile);
+        records.emplace_back(job_, box);
+        const std::uint64_t n_places = box.extent[0] * box.extent[orbit_axis];
+        for (std::uint64_t place = 0; place < n_places; ++place) {
+            const std::uint64_t point = box.origin[0] + place / box.extent[orbit_axis];
+            const std::uint64_t orbit = box.origin[orbit_axis] + place % box.extent[orbit_axis];
+            batch.add(
+                start_of(job_.what, coordinates_of_start(job_.what, point, orbit - n_sweeps)));
+            places.emplace_back(records.size() - 1, place);
+        }
     }
-    report.seconds = stop.elapsed();
-    const std::vector<layer_plan> layers = chosen_layers(scene);
-    for (std::uint64_t tile = 0; tile < report.n_tiles; ++tile) {
-        run.put(compress(layout, tile_of(layout, layers, diagram.states(), tile),
-                         scene.output.compression,
-                         report.seconds / static_cast<double>(report.n_tiles)));
+    follow(job_.what, batch, [&](std::uint64_t sample) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            records[places[i].first].record(batch, i, places[i].second, sample);
+        }
+    });
+    const double seconds = seconds_since(begin) / static_cast<double>(tiles.size());
+    lane_statistics lanes = batch.lanes();
+    for (recorded_tile& record : records) {
+        store(std::move(record).result(lanes, seconds));
+        lanes = {};  // told with the first tile
     }
-    report.tally = {report.n_tiles, report.n_cells, 0, diagram.lanes(), report.seconds};
-    report.outcomes = run.counts("outcome");
-    report.hash = run.hash();
-    run.finish({});
-    report.is_finished = true;
-    return report;
+}
+
+void orbit_diagram::compute_sweep(const std::vector<std::uint64_t>& tiles, const tile_sink& store) {
+    state carried = state_before(tiles);
+    for (const std::uint64_t tile : tiles) {
+        tile_result result = sweep_through(box_of(job_.layout, tile), carried);
+        const double seconds = result.seconds;
+        if (is_missing(tile)) store(std::move(result));
+        if (stop_.is_due(seconds)) return;
+    }
+}
+
+/// The state that a sweep comes to these tiles with.
+orbit_diagram::state orbit_diagram::state_before(const std::vector<std::uint64_t>& tiles) const {
+    const tile_box box = box_of(job_.layout, tiles.front());
+    const std::uint64_t orbit = box.origin[orbit_axis];
+    const std::vector<std::uint64_t> all = sweep_tiles(orbit);
+    const auto here = std::find(all.begin(), all.end(), tiles.front());
+    if (here == all.begin()) return {};
+    const tile_data before = run_.read(*(here - 1));
+    const std::uint64_t point = orbit == rising_orbit ? before.box.extent[0] - 1 : 0;
+    const std::uint64_t n_samples = before.box.extent[sample_axis];
+    const std::uint64_t cell = (point + 1) * n_samples - 1;
+    state result;
+    for (const std::size_t layer : state_layers_) {
+        double value = 0.0;
+        std::memcpy(&value, before.layers[layer].data() + cell * sizeof value, sizeof value);
+        if (std::isnan(value)) return {};  // the orbit has ended there
+        result.push_back(value);
+    }
+    return result;
+}
+
+/// Along the first axis; every orbit starts where the one before it ended, the first one and those
+/// after an orbit that ended start at the grid's first start.
+tile_result orbit_diagram::sweep_through(const tile_box& box, state& carried) {
+    const auto begin = clock_type::now();
+    const scene& scene = job_.what;
+    const bool is_rising = box.origin[orbit_axis] == rising_orbit;
+    recorded_tile record(job_, box);
+    lane_statistics lanes;
+    for (std::uint64_t i = 0; i < box.extent[0]; ++i) {
+        const std::uint64_t place = is_rising ? i : box.extent[0] - 1 - i;
+        cell_start start = start_of(scene, coordinates_of_start(scene, box.origin[0] + place, 0));
+        const bool is_carried = !carried.empty();
+        if (is_carried) {
+            // an axis that is a state column (a conserved one) keeps its own value
+            const scene_axis& axis = scene.axes[0];
+            const auto index = static_cast<std::size_t>(axis.index);
+            if (axis.kind == axis_kind::column) carried[index] = start.columns[index];
+            start.columns = carried;
+        }
+        orbit_batch batch(scene, one_orbit_,
+                          is_carried ? scene.start_section().returns_to : scene.section);
+        batch.add(start);
+        follow(scene, batch, [&](std::uint64_t sample) { record.record(batch, 0, place, sample); });
+        lanes += batch.lanes();
+        carried.clear();
+        if (!batch.goes_on(0)) continue;
+        for (std::size_t c = 0; c < scene.end_section().columns.size(); ++c) {
+            carried.push_back(batch.state(c, 0));
+        }
+    }
+    return std::move(record).result(lanes, seconds_since(begin));
 }
 
 }  // namespace hopscotch

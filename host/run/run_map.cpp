@@ -57,7 +57,9 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
     }
     report.gain = gain_of(scene, run);
     if (hooks.finish_layers) hooks.finish_layers(scene, run);
-    if (hooks.audit && scene.accuracy.audit_cells > 0) report.audit = hooks.audit(scene, plan, run);
+    const bool has_verdicts = !is_orbit_diagram(scene);  // a diagram is checked by its sums
+    if (hooks.audit && has_verdicts && scene.accuracy.audit_cells > 0)
+        report.audit = hooks.audit(scene, plan, run);
     report.hash = run.hash();
     attribute_list attributes = report.audit;
     if (scene.refine > 0) {
@@ -80,8 +82,10 @@ const char* kept_plan_of(std::span<const std::uint64_t> searched) {
     return searched.empty() ? kept_plan : "second_plan";
 }
 
-/// The kernel that every process of a run computes with.
+/// The kernel that every process of a run computes with. A diagram's calls are too small for a
+/// device.
 kernel_in_use run_kernel(const scene& scene, const run_choices& choices, const run_hooks& hooks) {
+    if (is_orbit_diagram(scene)) return kernel_in_use(kernel_of(scene, choices.backend));
     return hooks.kernel ? hooks.kernel(scene) : map_kernel_of(scene, choices.backend);
 }
 
@@ -121,7 +125,7 @@ public:
         open();
         if (report_.is_finished) return report_;
         make_plan();
-        if (!compute(missing_)) return report_;
+        if (!compute_missing()) return report_;
         report_.is_part_done = !choices_.part.is_whole();
         if (report_.is_part_done) return report_;
         if (!compute(search_again())) return report_;
@@ -218,10 +222,22 @@ private:
         return refine::coarse_cells_in(box_of(layout_, tile), scene_.refine);
     }
 
-    /// Computes tiles together; true where all of them are done.
+    /// Computes the tiles that are missing; true where none is left.
+    bool compute_missing() {
+        if (!is_orbit_diagram(scene_)) return compute(missing_);
+        const tile_job work = job();
+        orbit_diagram diagram(work, *run_, stop_, choices_.part, choices_.backend, missing_);
+        return compute(
+            missing_, diagram.heads(),
+            [&](const tile_box& head, const tile_sink& store) { diagram.compute(head, store); });
+    }
+
+    /// Computes tiles, each by itself; true where all of them are done.
     bool compute(const std::vector<std::uint64_t>& tiles) {
         const tile_job work = job();
-        return compute(tiles, [&](const tile_box& box) { return compute_first(work, box); });
+        return compute(tiles, tiles, [&](const tile_box& box, const tile_sink& store) {
+            store(compute_first(work, box));
+        });
     }
 
     /// The rounds after the coarse grid, until one finds no boundary that is not known. A resumed
@@ -238,13 +254,14 @@ private:
         for (int round = 1; !tiles.empty(); round += round <= scene_.refine ? 1 : 0) {
             std::vector<std::uint64_t> changed;
             std::mutex mutex;
-            const bool is_done = compute(tiles, [&](const tile_box& box) {
+            const auto work_on = [&](const tile_box& box, const tile_sink& store) {
                 std::optional<tile_result> found = rounds.compute(box, round);
                 if (found) found->seconds += run_->seconds(box.index);
+                store(found);
                 const std::lock_guard guard(mutex);
                 if (found) changed.push_back(box.index);
-                return found;
-            });
+            };
+            const bool is_done = compute(tiles, tiles, work_on);
             if (!is_done) return false;
             double n_changed = 0.0;
             for (const double each : ranks_.from_all(static_cast<double>(changed.size()))) {
@@ -261,7 +278,10 @@ private:
     }
 
     /// A pass over tiles; true where all of them are done.
-    bool compute(const std::vector<std::uint64_t>& tiles, const tile_work& work) {
+    /// \param drawn  those that stand for a piece of work in the queue: all, or one of several that
+    ///               are computed together
+    bool compute(const std::vector<std::uint64_t>& tiles, const std::vector<std::uint64_t>& drawn,
+                 const tile_work& work) {
         std::uint64_t n_wanted = 0;
         for (const std::uint64_t tile : tiles) n_wanted += n_cells_of(tile);
         const tile_box whole{0, std::vector<std::uint64_t>(layout_.axes.size(), 0), shape()};
@@ -270,7 +290,7 @@ private:
         progress_line line(n_all, n_all - std::min(n_wanted, n_all),
                            choices_.is_quiet || is_round || !ranks_.is_first());
         const auto queue =
-            ranks_.open_queue(tiles, [&](const run_tally& tally) { line.show(tally); });
+            ranks_.open_queue(drawn, [&](const run_tally& tally) { line.show(tally); });
         const double begin = stop_.elapsed();
         double end = begin;
         ranks_.together([&] {
@@ -366,31 +386,11 @@ private:
     run_report report_;
 };
 
-/// A diagram's orbits are carried along its axis, so that it is no set of tiles: rank 0 computes
-/// it.
-run_report run_diagram_by(team& ranks, const scene& scene, const run_choices& choices) {
-    run_report report;
-    ranks.together([&] {
-        if (!choices.part.is_whole()) {
-            throw scene_error({scene.question.place, "question.kind", "\"orbit_diagram\"",
-                               "computed as a whole, not in shards", ""});
-        }
-        if (ranks.is_first()) report = run_diagram(scene, choices);
-    });
-    if (ranks.size() > 1 && ranks.is_first()) {
-        report.notes.push_back("an orbit diagram is computed by one process: the other " +
-                               std::to_string(ranks.size() - 1) + " have waited");
-    }
-    report.is_finished = ranks.from_first({report.is_finished ? 1U : 0U})[0] == 1;
-    return report;
-}
-
 }  // namespace
 
 run_report run_map(const scene& scene, const run_choices& choices, const run_hooks& hooks,
                    team& ranks) {
     check_is_map(scene);
-    if (is_orbit_diagram(scene)) return run_diagram_by(ranks, scene, choices);
     std::optional<team_run> run;
     ranks.together([&] { run.emplace(scene, choices, hooks, ranks); });
     return run->run();
@@ -423,11 +423,13 @@ void help_with_map(const scene& scene, const run_choices& choices, const run_hoo
         }
     }
     const tile_job job{scene, plan, layout, layers, kernel};
-    const tile_work work = [&](const tile_box& box) -> std::optional<tile_result> {
-        if (!std::binary_search(missing.begin(), missing.end(), box.index)) return std::nullopt;
-        tile_result result = compute_first(job, box);
+    const tile_work work = [&](const tile_box& box, const tile_sink& store) {
+        if (!std::binary_search(missing.begin(), missing.end(), box.index)) {
+            return store(std::nullopt);
+        }
+        const tile_result result = compute_first(job, box);
         if (!kernel.failure().empty()) run.keep(kept_lost_device, kernel.failure());
-        return result;
+        store(result);
     };
     compute_tiles(job, work, queue, run, stop, choices.n_threads);
 }
@@ -451,6 +453,7 @@ void check_is_map(const scene& scene) {
         throw scene_error({scene.question.place, "question.kind", "\"" + scene.question.kind + "\"",
                            "not computed as a map in this version", "\"basins\""});
     }
+    if (is_orbit_diagram(scene)) check_diagram(scene);
     if (scene.accuracy.precision != "double") {
         throw scene_error(
             {scene.accuracy.place, "accuracy.precision", "\"" + scene.accuracy.precision + "\"",

@@ -4,7 +4,7 @@
 #include "host/map/text_hash.hpp"
 #include "host/run/attributes.hpp"
 #include "host/run/map_draw.hpp"
-#include "host/run/orbit_diagram.hpp"
+#include "host/scene/diagram_grid.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/sweep_table.hpp"
@@ -117,10 +117,7 @@ public:
 
 private:
     /// The layout of every map; a finished map's own where there is one.
-    map_layout layout() const {
-        const scene first = map_scene(sweep_, 0);
-        return is_orbit_diagram(first) ? diagram_layout(first) : layout_of(first);
-    }
+    map_layout layout() const { return layout_of(map_scene(sweep_, 0)); }
 
     fs::path map_file(std::uint64_t point) const {
         return sweep_map_path(report_.directory, point);
@@ -301,8 +298,10 @@ private:
         const auto place = std::lower_bound(all.points.begin(), all.points.end(), point);
         const auto index = static_cast<std::size_t>(place - all.points.begin());
         const scene map = map_scene(sweep_, point);
+        // tiles of a diagram depend on each other
+        const bool can_be_helped = ranks_.size() > 1 && !is_orbit_diagram(map);
         member_of_sweep alone([&](const run_tally& tally) { all.count(tally); },
-                              ranks_.size() > 1 ? &all.tiles : nullptr, index);
+                              can_be_helped ? &all.tiles : nullptr, index);
         run_choices choices = choices_of_map(point);
         choices.n_at_once = n_at_once(all.points.size());
         const run_report done = run_map(map, choices, hooks_.of_map(map, choices.file), alone);

@@ -4,7 +4,9 @@
 #include "host/run/run_map.hpp"
 #include "host/store/compressed_tile.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <optional>
 
 #include <tbb/parallel_pipeline.h>
@@ -12,12 +14,6 @@
 
 namespace hopscotch {
 namespace {
-
-struct finished_tile {
-    std::optional<compressed_tile> tile;  // nothing where it stays as it was
-    lane_statistics lanes;
-    std::uint64_t n_computed = 0;
-};
 
 class tile_pipeline {
 public:
@@ -27,15 +23,14 @@ public:
 
     void compute(int n_threads) {
         using tbb::filter_mode;
+        const tile_sink store = [&](const std::optional<tile_result>& result) { finish(result); };
         tbb::parallel_pipeline(
-            2 * static_cast<std::size_t>(n_threads),
+            static_cast<std::size_t>(n_threads),
             tbb::make_filter<void, std::uint64_t>(
                 filter_mode::serial_in_order, [&](tbb::flow_control& flow) { return next(flow); }) &
-                tbb::make_filter<std::uint64_t, finished_tile>(
-                    filter_mode::parallel, [&](std::uint64_t tile) { return finish(tile); }) &
-                tbb::make_filter<finished_tile, void>(
-                    filter_mode::serial_out_of_order,
-                    [&](const finished_tile& tile) { write(tile); }));
+                tbb::make_filter<std::uint64_t, void>(
+                    filter_mode::parallel,
+                    [&](std::uint64_t tile) { work_(box_of(job_.layout, tile), store); }));
     }
 
 private:
@@ -48,31 +43,28 @@ private:
         return 0;
     }
 
-    finished_tile finish(std::uint64_t index) {
-        const std::optional<tile_result> result = work_(box_of(job_.layout, index));
-        if (!result) return {};
-        const int level = job_.what.output.compression;
-        return {compress(job_.layout, result->data, level, result->seconds), result->lanes,
-                result->n_computed};
+    void finish(const std::optional<tile_result>& result) {
+        run_tally tally;
+        tally.tiles = 1;
+        if (result) tally = write(*result);
+        const std::lock_guard guard(counting_);
+        slowest_ = std::max(slowest_.load(), tally.busy);
+        queue_.count(tally);
     }
 
-    void write(const finished_tile& finished) {
-        if (!finished.tile) {
-            run_tally unchanged;
-            unchanged.tiles = 1;
-            return queue_.count(unchanged);
-        }
-        run_.put(*finished.tile);
-        const tile_summary& summary = finished.tile->summary;
-        if (summary.seconds > slowest_) slowest_ = summary.seconds;
-        run_tally tally{1, finished.n_computed, 0, finished.lanes, summary.seconds};
+    run_tally write(const tile_result& result) {
+        const int level = job_.what.output.compression;
+        const compressed_tile tile = compress(job_.layout, result.data, level, result.seconds);
+        run_.put(tile);
+        const tile_summary& summary = tile.summary;
+        run_tally tally{1, result.n_computed, 0, result.lanes, summary.seconds};
         for (std::size_t i = 0; i < job_.layers.size(); ++i) {
             if (job_.layers[i].role != layer_role::outcome) continue;
             for (const auto& [code, n] : summary.counts[i]) {
                 if (is_undecided(job_.what, code)) tally.undecided += n;
             }
         }
-        queue_.count(tally);
+        return tally;
     }
 
     const tile_job& job_;
@@ -80,6 +72,7 @@ private:
     tile_queue& queue_;
     map_run& run_;
     const stop_condition& stop_;
+    std::mutex counting_;
     std::atomic<double> slowest_ = 0.0;  // seconds of the slowest tile so far
 };
 

@@ -1,5 +1,5 @@
-// One rank's part in a pass over tiles: draw, compute and compress in parallel, write one at a
-// time. No more than two tiles per thread are in flight, whatever the map's size. Used by run_map.
+// One rank's part in a pass over tiles: draw one after the other, compute, compress and write in
+// parallel. Memory is that of the tiles in flight, whatever the map's size. Used by run_map.
 #pragma once
 
 #include "host/run/stop_condition.hpp"
@@ -12,8 +12,13 @@
 
 namespace hopscotch {
 
-/// What a pass does with a tile; nothing comes back where it stays as it is. Thread safe.
-using tile_work = std::function<std::optional<tile_result>(const tile_box&)>;
+/// Takes a finished tile: it is compressed, written and counted. Nothing: a tile stays as it is.
+/// Thread safe.
+using tile_sink = std::function<void(const std::optional<tile_result>&)>;
+
+/// What a pass does with a tile that it has drawn: hands it to the sink, or several that are
+/// computed together. Thread safe.
+using tile_work = std::function<void(const tile_box&, const tile_sink&)>;
 
 /// Works on tiles of the queue until it is dry or the run has to stop. A signal, or an error here,
 /// halts the queue for all ranks.

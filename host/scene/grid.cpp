@@ -1,6 +1,7 @@
 // Sample values, cell coordinates and the layout of a scene's map.
 #include "host/scene/grid.hpp"
 
+#include "host/scene/diagram_grid.hpp"
 #include "host/scene/layers.hpp"
 
 #include <cmath>
@@ -58,6 +59,10 @@ map_layout layout_of(const scene& scene) {
     for (const scene_axis& axis : scene.axes) layout.axes.push_back(described(scene, axis));
     for (const layer_plan& layer : chosen_layers(scene)) layout.layers.push_back(layer.description);
     layout.tile = scene.output.tile;
+    if (is_orbit_diagram(scene)) {
+        layout.axes = diagram_axes(scene, std::move(layout.axes[0]));
+        layout.tile = diagram_tile(scene);
+    }
     return layout;
 }
 

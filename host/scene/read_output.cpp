@@ -69,6 +69,7 @@ void read_tile(scene& scene, const table_reader& table) {
     scene.output.tile = standard_tile(scene);
     const auto tile = table.wholes("tile", 1);
     if (!tile) return;
+    scene.output.has_own_tile = true;
     if (tile->size() != scene.axes.size()) {
         table.refuse("tile", fmt::format("the grid has {} axes", scene.axes.size()),
                      fmt::format("one number per axis, as {}", fmt::join(scene.output.tile, ", ")));

@@ -78,6 +78,7 @@ struct scene_accuracy {
 struct scene_output {
     std::filesystem::path file;
     std::vector<std::uint64_t> tile;
+    bool has_own_tile = false;  // the scene chooses it
     int compression = 4;
     std::vector<std::string> layers;  // names of datasets, see host/scene/layers.hpp
 };

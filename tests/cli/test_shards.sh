@@ -46,8 +46,6 @@ for part in 0/3 4/3 x 1/0 1/2/3; do
 done
 claim_exit "nothing to merge is said" 4 hopscotch merge nothing.h5
 claim_contains "with the name looked for" "nothing.h5.tiles" err.txt
-claim_exit "an orbit diagram has no shards" 3 hopscotch run \
-    "$source_folder/configs/scenes/cham2007_fig5_orbits.toml" --shard 1/2 -o d.h5
 
 # attractors that are searched: the same labels from every shard, the second search at the join
 searched=("$source_folder/configs/scenes/cham2007_fig8_basins.toml" grid.axis.0.cells=30

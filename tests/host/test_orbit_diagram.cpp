@@ -1,6 +1,7 @@
 // Orbit diagrams against known orbits: periods of the pneumatic map, the two folds of the clocked
 // hopper seen by sweeps up and down, and the file's axes.
 #include "host/store/map_reader.hpp"
+#include "host/store/tile_file.hpp"
 #include "tests/host/scratch_run.hpp"
 
 #include <cmath>
@@ -95,13 +96,69 @@ TEST_F(orbit_diagram, has_no_sweeps_where_none_are_asked_for) {
     EXPECT_NEAR(map.read_all("energy")[0], std::log(2.0), 1e-12);
 }
 
-TEST_F(orbit_diagram, is_the_same_for_any_number_of_threads) {
-    const std::string hash = run(over_gain, "a.h5", {"grid.axis.0.cells=1500"}, 1).hash;
-    EXPECT_EQ(run(over_gain, "b.h5", {"grid.axis.0.cells=1500"}, 4).hash, hash);
+TEST_F(orbit_diagram, is_the_same_for_any_threads_tiles_and_kernels) {
+    const std::string hash = run(over_gain, "a.h5", {}, 1).hash;
+    EXPECT_EQ(run(over_gain, "b.h5", {}, 4).hash, hash);
+    EXPECT_EQ(run(over_gain, "c.h5", {"output.tile=[1, 1]"}, 3).hash, hash);
+    EXPECT_EQ(run(over_gain, "d.h5", {"output.tile=[8, 3]"}, 2).hash, hash);
+    run_choices scalar = choices("e.h5");
+    scalar.backend = "scalar";
+    EXPECT_EQ(run_map(parse_scene(over_gain, "scene.toml"), scalar, {}).hash, hash);
+}
+
+TEST_F(orbit_diagram, resumes_from_any_of_its_tiles) {
+    const std::string hash = run(over_gain, "whole.h5").hash;
+    // 4 pieces of the parameter by 2 sweeps and 3 starts
+    const std::vector<std::string> small{"output.tile=[6, 1]"};
+    const scene scene = parse_scene(over_gain, "scene.toml", small);
+    run_choices kept = choices("kept.h5");
+    kept.keeps_tiles = true;
+    kept.existing = if_exists::resume;
+    EXPECT_EQ(run_map(scene, kept, {}).hash, hash);
+    const std::vector<std::vector<std::uint64_t>> losses{
+        {0}, {15}, {1}, {16}, {5, 6}, {5, 10, 17}, {2, 8}, {0, 1, 2, 3, 4}, {10, 11, 12, 13, 14}};
+    for (const std::vector<std::uint64_t>& lost : losses) {
+        for (const std::uint64_t tile : lost) {
+            ASSERT_TRUE(std::filesystem::remove(tile_path(folder_ / "kept.h5.tiles", tile)));
+        }
+        const run_report report = run_map(scene, kept, {});
+        EXPECT_TRUE(report.is_finished);
+        EXPECT_EQ(report.hash, hash) << "without tile " << lost[0];
+        EXPECT_EQ(report.tally.tiles, lost.size());
+    }
+}
+
+TEST_F(orbit_diagram, resumes_without_the_states_that_it_does_not_store) {
+    const std::vector<std::string> heights{"output.layers=[\"height\"]", "output.tile=[20]"};
+    const std::string hash = run(folds, "whole.h5", heights).hash;
+    const scene scene = parse_scene(folds, "scene.toml", heights);
+    run_choices kept = choices("kept.h5");
+    kept.keeps_tiles = true;
+    kept.existing = if_exists::resume;
+    EXPECT_EQ(run_map(scene, kept, {}).hash, hash);
+    ASSERT_TRUE(std::filesystem::remove(folder_ / "kept.h5.tiles" / "tile_000000009.h5"));
+    const run_report report = run_map(scene, kept, {});
+    EXPECT_EQ(report.hash, hash);
+    EXPECT_EQ(report.tally.tiles, 1u);
+}
+
+TEST_F(orbit_diagram, is_joined_from_shards_that_have_parts_of_its_sweeps) {
+    const std::string hash = run(folds, "whole.h5").hash;
+    const std::vector<std::string> pieces{"output.tile=[20]"};
+    const scene scene = parse_scene(folds, "scene.toml", pieces);
+    run_choices part = choices("map.h5");
+    for (const std::uint64_t index : {3u, 0u, 1u, 2u}) {
+        part.part = {index, 4};
+        EXPECT_TRUE(run_map(scene, part, {}).is_part_done);
+    }
+    run_choices joined = choices("map.h5");
+    joined.existing = if_exists::resume;
+    joined.is_merge = true;
+    EXPECT_EQ(run_map(scene, joined, {}).hash, hash);
 }
 
 TEST_F(orbit_diagram, sweeps_up_and_down_leave_their_branch_at_the_two_folds) {
-    const run_report report = run(folds, "map.h5");
+    const run_report report = run(folds, "map.h5", {"output.tile=[20]"});
     const map_reader map(report.file);
     const std::vector<double> heights = map.read_all("height");
     const std::vector<double>& periods = map.layout().axes[0].values;
