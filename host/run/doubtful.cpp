@@ -14,7 +14,12 @@ namespace {
 constexpr double least_spacing = 0x1p14;            // displacements between neighbours that tell
 constexpr double probe_share = 0x1p-6;              // of the distance between cells: further starts
 constexpr double probe_ratio = 0.6180339887498949;  // of the shares along one axis and the next
-constexpr std::uint64_t block = 8;  // cells per axis that share a trial of the fixed numbers
+
+/// Cells per axis that share a trial of the fixed numbers: about 64 in all.
+std::uint64_t block_edge(std::size_t n_axes) {
+    constexpr std::uint64_t edges[] = {1, 64, 8, 4, 3};
+    return n_axes < std::size(edges) ? edges[n_axes] : 2;
+}
 
 using cell_list = std::vector<std::uint64_t>;
 
@@ -48,10 +53,11 @@ cell_list strides_of(const scene& scene) {
 
 /// The cell at which a cell's block tries the fixed numbers.
 std::uint64_t trial_of(const scene& scene, const cell_list& strides, std::uint64_t cell) {
+    const std::uint64_t edge = block_edge(strides.size());
     std::uint64_t trial = 0;
     for (std::size_t axis = 0; axis < strides.size(); ++axis) {
         const std::uint64_t position = cell / strides[axis] % scene.axes[axis].cells;
-        trial += position / block * block * strides[axis];
+        trial += position / edge * edge * strides[axis];
     }
     return trial;
 }
@@ -118,21 +124,25 @@ std::vector<bool> tried(const scene& scene, const label_plan& plan, const kernel
                         const answer_view& known_answers, double tolerance) {
     std::vector<bool> changes(trials.size(), false);
     const cell_request at_trials = request_of(scene, plan, trials);
-    for (const double sign : {1.0, -1.0}) {
-        answers again(trials.size());
-        moved_request moved(scene, at_trials.request, tolerance);
-        moved.move_fixed(sign);
-        again.bind(moved.request(), scene);
-        run_labelled(scene, plan, run, moved.request());
-        const answer_view moved_answers(moved.request());
+    const auto compare = [&](const answer_view& moved) {
         for (std::size_t i = 0; i < trials.size(); ++i) {
             const auto place = static_cast<std::uint64_t>(
                 std::lower_bound(known.cells.begin(), known.cells.end(), trials[i]) -
                 known.cells.begin());
-            if (has_other_answer(scene, known_answers, place, moved_answers, i) ||
-                has_other_events(scene, known_answers, place, moved_answers, i)) {
+            if (has_other_answer(scene, known_answers, place, moved, i) ||
+                has_other_events(scene, known_answers, place, moved, i)) {
                 changes[i] = true;
             }
+        }
+    };
+    for (const fixed_number& number : movable_numbers(scene, at_trials.request)) {
+        for (const double sign : {1.0, -1.0}) {
+            answers again(trials.size());
+            moved_request moved(scene, at_trials.request, tolerance);
+            moved.move_fixed(number, sign);
+            again.bind(moved.request(), scene);
+            run_labelled(scene, plan, run, moved.request());
+            compare(answer_view(moved.request()));
         }
     }
     return changes;

@@ -7,8 +7,9 @@
 // state, if all returns are spent), and cells at the grid's edge, which lack neighbours. Of these
 // only those stay doubtful that differ from one of two further starts, 1/64 of the cells' distance
 // away on either side, in a direction to whose ratios no surface has reason to be parallel. A
-// surface parallel to all axes is one of the fixed numbers: whether moving these changes an answer
-// is tried at every eighth cell of every axis, and a change there makes the whole block doubtful.
+// surface parallel to all axes is one of the fixed numbers: whether moving one of these changes an
+// answer is tried at one cell of every block of 64 (8 x 8), and a change there makes the whole
+// block doubtful.
 //
 // Left out is what lies between two surfaces less than a cell (1/64 of it, next to other answers)
 // apart that leave no trace in the neighbours' numbers of returns and events. A cell that itself

@@ -20,6 +20,16 @@ double scale_of(const scene_axis& axis) {
                                          : std::max(std::abs(axis.lowest), std::abs(axis.highest));
 }
 
+bool is_axis(const scene& scene, axis_kind kind, std::size_t index) {
+    return std::any_of(scene.axes.begin(), scene.axes.end(), [&](const scene_axis& axis) {
+        return axis.kind == kind && static_cast<std::size_t>(axis.index) == index;
+    });
+}
+
+bool can_move(const column_source& source) {
+    return source.values[0] != 0.0 && std::isfinite(source.values[0]);
+}
+
 }  // namespace
 
 double displacement_of(double x, double scale, double tolerance) {
@@ -47,6 +57,19 @@ double spacing_at(const scene_axis& axis, double x) {
     return std::abs(axis.highest - axis.lowest) / gaps;
 }
 
+std::vector<fixed_number> movable_numbers(const scene& scene, const ensemble_request& request) {
+    std::vector<fixed_number> numbers;
+    for (std::size_t c = 0; c < scene.start.size(); ++c) {
+        if (!is_axis(scene, axis_kind::column, c) && can_move(request.columns[c]))
+            numbers.push_back({axis_kind::column, c});
+    }
+    for (std::size_t p = 0; p < scene.parameters.size(); ++p) {
+        if (!is_axis(scene, axis_kind::parameter, p) && can_move(request.parameters[p]))
+            numbers.push_back({axis_kind::parameter, p});
+    }
+    return numbers;
+}
+
 template <class Distance>
 void moved_request::move(column_source& source, const range& valid, Distance by) {
     std::vector<double>& table = tables_.emplace_back(source.size);
@@ -57,46 +80,30 @@ void moved_request::move(column_source& source, const range& valid, Distance by)
     source.values = table.data();
 }
 
-column_source& moved_request::source_of(const scene_axis& axis) {
-    return axis.kind == axis_kind::column ? request_.columns[axis.index]
-                                          : request_.parameters[axis.index];
+column_source& moved_request::source_of(axis_kind kind, std::size_t index) {
+    return kind == axis_kind::column ? request_.columns[index] : request_.parameters[index];
 }
 
-const range& moved_request::valid_on(const scene_axis& axis) const {
-    const auto index = static_cast<std::size_t>(axis.index);
-    return axis.kind == axis_kind::column ? scene_.start_section().columns[index].valid
-                                          : scene_.info().parameters[index].valid;
+const range& moved_request::valid_for(axis_kind kind, std::size_t index) const {
+    return kind == axis_kind::column ? scene_.start_section().columns[index].valid
+                                     : scene_.info().parameters[index].valid;
 }
 
 void moved_request::move_axis(const scene_axis& axis, double sign) {
-    move(source_of(axis), valid_on(axis),
+    const auto index = static_cast<std::size_t>(axis.index);
+    move(source_of(axis.kind, index), valid_for(axis.kind, index),
          [&](double x) { return sign * displacement_on(axis, x, tolerance_); });
 }
 
 void moved_request::move_between_cells(const scene_axis& axis, double share) {
-    move(source_of(axis), valid_on(axis), [&](double x) { return share * spacing_at(axis, x); });
+    const auto index = static_cast<std::size_t>(axis.index);
+    move(source_of(axis.kind, index), valid_for(axis.kind, index),
+         [&](double x) { return share * spacing_at(axis, x); });
 }
 
-void moved_request::move_fixed(double sign) {
-    for (std::size_t c = 0; c < scene_.start.size(); ++c, sign = -sign) {
-        if (is_axis(axis_kind::column, c)) continue;
-        move_constant(request_.columns[c], sign, scene_.start_section().columns[c].valid);
-    }
-    for (std::size_t p = 0; p < scene_.parameters.size(); ++p, sign = -sign) {
-        if (is_axis(axis_kind::parameter, p)) continue;
-        move_constant(request_.parameters[p], sign, scene_.info().parameters[p].valid);
-    }
-}
-
-bool moved_request::is_axis(axis_kind kind, std::size_t index) const {
-    return std::any_of(scene_.axes.begin(), scene_.axes.end(), [&](const scene_axis& axis) {
-        return axis.kind == kind && static_cast<std::size_t>(axis.index) == index;
-    });
-}
-
-void moved_request::move_constant(column_source& source, double sign, const range& valid) {
-    if (source.values[0] == 0.0) return;
-    move(source, valid, [&](double x) { return sign * displacement_of(x, 0.0, tolerance_); });
+void moved_request::move_fixed(const fixed_number& number, double sign) {
+    move(source_of(number.kind, number.index), valid_for(number.kind, number.index),
+         [&](double x) { return sign * displacement_of(x, 0.0, tolerance_); });
 }
 
 }  // namespace hopscotch

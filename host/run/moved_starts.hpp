@@ -6,6 +6,7 @@
 #include "host/scene/scene.hpp"
 #include "kernels/ensemble/request.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace hopscotch {
@@ -24,9 +25,18 @@ double tolerance_of(const scene& scene);
 /// How far apart the axis' cells are at x; 0 where all of them stand at one value.
 double spacing_at(const scene_axis& axis, double x);
 
+/// A start column or parameter that is no axis of the scene.
+struct fixed_number {
+    axis_kind kind;
+    std::size_t index;
+};
+
+/// The fixed numbers that can be moved: not those that are zero, infinite or derived by the model,
+/// which switch terms off.
+std::vector<fixed_number> movable_numbers(const scene& scene, const ensemble_request& request);
+
 /// A request whose starts are moved in one way, with the tables that it points to. Numbers that
-/// would leave what is admissible stay; fixed ones also where they are zero, infinite or derived by
-/// the model: that switches terms off.
+/// would leave what is admissible stay.
 class moved_request {
 public:
     moved_request(const scene& scene, const ensemble_request& from, double tolerance)
@@ -39,14 +49,11 @@ public:
     /// By a share of the distance between the axis' cells.
     void move_between_cells(const scene_axis& axis, double share);
 
-    /// All numbers that are no axes, with alternating signs.
-    void move_fixed(double sign);
+    void move_fixed(const fixed_number& number, double sign);
 
 private:
-    bool is_axis(axis_kind kind, std::size_t index) const;
-    column_source& source_of(const scene_axis& axis);
-    const range& valid_on(const scene_axis& axis) const;
-    void move_constant(column_source& source, double sign, const range& valid);
+    column_source& source_of(axis_kind kind, std::size_t index);
+    const range& valid_for(axis_kind kind, std::size_t index) const;
 
     /// \param by  from a number to how far it moves
     template <class Distance>

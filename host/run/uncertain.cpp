@@ -70,15 +70,18 @@ std::vector<std::uint8_t> second_look(const scene& scene, const label_plan& plan
         run_labelled(scene, plan, run, again.request());
         compared.compare(answer_view(again.request()));
     };
+    const std::vector<fixed_number> numbers = movable_numbers(scene, results);
     for (const double sign : {1.0, -1.0}) {
         for (const scene_axis& axis : scene.axes) {
             moved_request again(scene, results, tolerance);
             again.move_axis(axis, sign);
             look(again);
         }
-        moved_request again(scene, results, tolerance);
-        again.move_fixed(sign);
-        look(again);
+        for (const fixed_number& number : numbers) {
+            moved_request again(scene, results, tolerance);
+            again.move_fixed(number, sign);
+            look(again);
+        }
     }
     return std::move(compared).flags();
 }

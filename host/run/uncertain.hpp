@@ -2,14 +2,23 @@
 // few roundings. The layer `uncertain`, and the audit's share of such cells.
 //
 // Cells that are not certain by their neighbours (doubtful.hpp) are computed again by the same
-// kernel from moved starts: each axis by itself, up and down, and all fixed numbers at once. An
-// orbit's roundings act like a small displacement of its start, unless it contracts so fast that a
-// displaced start is forgotten before it reaches the boundary; moving the parameters acts at every
-// return, as roundings do. That also finds an orbit that passes a guard closer than its error: the
-// moved ones pass on the other side, with another number of events. Orbits that spend their returns
-// undecided are certain to be so only if the moved ones end in the same place. Sixteen ulp, because
-// four are too few: of cells one ulp apart at boundaries, wrong labels went unflagged where orbits
-// dwell on a ghost of a fixed point (tests/hard/test_wrong_labels.cpp, `bench uncertain`).
+// kernel with one number moved, up and down: each axis, then each fixed start column and parameter.
+//
+// Why that finds what roundings can change. The error of a return is a few roundings' worth of the
+// exact map's own sensitivity to its state and parameters (tests/hard asserts at most 3), so that
+// at the guard or trap edge that decides, an orbit's error is a sum over returns and numbers of
+// "rounding times effect of that number". A moved start has the effect of roundings of the first
+// returns; where the orbit forgets its start only the last returns count, and a moved parameter acts
+// at every return. The largest single effect is at least the sum's share of one number, whereas
+// numbers moved together can cancel: with all of them moved at once twelve wrong labels of the
+// paddle juggler went unflagged. An orbit that passes a guard closer than its error is found in the
+// same way: moved ones pass on the other side, with another number of events. Orbits that spend
+// their returns undecided are certain to be so only if the moved ones end in the same place.
+//
+// What it can miss: roundings of many returns that add up where the effects of moved numbers do not
+// (they alternate in sign, or turn, for thousands of returns), and effects of numbers that are zero,
+// which stay. Sixteen ulp, because four are too few: wrong labels went unflagged where orbits dwell
+// on a ghost of a fixed point (tests/hard/test_wrong_labels.cpp, `bench uncertain`).
 #pragma once
 
 #include "host/map/certainty.hpp"
