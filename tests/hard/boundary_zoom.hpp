@@ -8,6 +8,7 @@
 #include "host/run/requests.hpp"
 #include "host/scene/grid.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -16,11 +17,16 @@
 
 namespace hopscotch::hard {
 
-/// The scene with its first column axis alone; the other axes stand at the share `place` of theirs.
-inline scene line_through(scene from, double place) {
+/// The scene with one of its column axes alone, the `which`-th (counted around); the other axes
+/// stand at the share `place` of theirs.
+inline scene line_through(scene from, double place, std::size_t which = 0) {
+    const auto is_column = [](const scene_axis& axis) { return axis.kind == axis_kind::column; };
+    const auto n_columns =
+        static_cast<std::size_t>(std::count_if(from.axes.begin(), from.axes.end(), is_column));
     std::vector<scene_axis> axes;
+    std::size_t n_seen = 0;
     for (const scene_axis& axis : from.axes) {
-        if (axis.kind == axis_kind::column && axes.empty()) {
+        if (is_column(axis) && n_seen++ == which % n_columns) {
             axes.push_back(axis);
             continue;
         }
