@@ -4,7 +4,6 @@
 
 #include <cuda_runtime_api.h>
 
-#include <algorithm>
 #include <string>
 
 namespace hopscotch {
@@ -103,25 +102,24 @@ public:
         require(cudaMemsetAsync(memory, 0, bytes, stream_of(stream)), "cudaMemsetAsync");
     }
 
-    /// As many threads as stay resident, no more than there are cells: they draw cells until none
-    /// is left.
-    void launch(int device, device_stream stream, const device_kernel& kernel,
-                const device_work& work) override {
+    std::uint64_t most_blocks(int device, const device_kernel& kernel) override {
         select(device);
         int resident = 0;
         require(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&resident, kernel.function,
                                                               kernel.threads_per_block, 0),
                 "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
-        const auto most =
-            static_cast<std::uint64_t>(resident) *
-            static_cast<std::uint64_t>(attribute(cudaDevAttrMultiProcessorCount, device));
-        const auto threads = static_cast<std::uint64_t>(kernel.threads_per_block);
-        const std::uint64_t blocks = std::min(most, (work.n_cells + threads - 1) / threads);
+        return static_cast<std::uint64_t>(resident) *
+               static_cast<std::uint64_t>(attribute(cudaDevAttrMultiProcessorCount, device));
+    }
+
+    void launch(int device, device_stream stream, const device_kernel& kernel,
+                std::uint64_t n_blocks, const device_work& work) override {
+        select(device);
         void* arguments[] = {const_cast<device_work*>(&work)};
-        require(
-            cudaLaunchKernel(kernel.function, dim3(static_cast<unsigned>(blocks)),
-                             dim3(static_cast<unsigned>(threads)), arguments, 0, stream_of(stream)),
-            "cudaLaunchKernel");
+        require(cudaLaunchKernel(kernel.function, dim3(static_cast<unsigned>(n_blocks)),
+                                 dim3(static_cast<unsigned>(kernel.threads_per_block)), arguments,
+                                 0, stream_of(stream)),
+                "cudaLaunchKernel");
     }
 
     void wait(int device, device_stream stream) override {

@@ -54,10 +54,14 @@ device_pool::device_pool(device_runtime& runtime, const device_limits& limits) :
         const device_description description = runtime.describe(device);
         names_.push_back(description.name);
         // half of what is free: the stacks of the kernels' threads take some as well
-        const std::size_t bytes = std::min(limits.most_bytes, description.free_bytes / 2);
         const auto n = static_cast<std::size_t>(limits.workers_per_device);
+        const device_share share{
+            .bytes = std::min(limits.most_bytes, description.free_bytes / 2) / n,
+            .workspace_bytes =
+                std::min(limits.most_workspace_bytes, description.free_bytes / 8) / n,
+            .of_workers = n};
         for (std::size_t i = 0; i < n; ++i) {
-            workers_.push_back(std::make_unique<device_worker>(runtime, device, bytes / n));
+            workers_.push_back(std::make_unique<device_worker>(runtime, device, share));
         }
     }
     // handed out from the back: the first requests go to different devices

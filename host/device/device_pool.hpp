@@ -11,11 +11,15 @@
 
 namespace hopscotch {
 
-/// How a device is shared out.
+/// How a device is shared out. With the stacks of the kernels' threads, which the driver keeps
+/// (less than 1.1 GB, bench/results/kernel_resources.jsonl), a process takes less than 2 GiB of a
+/// device.
 struct device_limits {
     int workers_per_device = 3;  // one computes, one copies, one has its host part
-    std::size_t most_bytes = std::size_t{1} << 29;  // of a device, whatever the map's size
-    std::uint64_t least_cells = 1u << 18;           // of a piece: fewer do not fill a device
+    std::size_t most_bytes = std::size_t{1} << 28;            // of tables and layers, whatever the
+                                                              // map's size
+    std::size_t most_workspace_bytes = std::size_t{1} << 28;  // of threads beside their stacks
+    std::uint64_t least_cells = 1u << 18;  // of a piece: fewer do not fill a device
 };
 
 class device_pool {

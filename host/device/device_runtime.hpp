@@ -39,6 +39,9 @@ public:
     virtual std::byte* allocate_pinned(int device, std::size_t bytes) = 0;
     virtual void release_pinned(std::byte* memory) noexcept = 0;
 
+    /// Blocks of a kernel that a device computes at the same time.
+    virtual std::uint64_t most_blocks(int device, const device_kernel& kernel) = 0;
+
     virtual device_stream open_stream(int device) = 0;
     virtual void close_stream(int device, device_stream stream) noexcept = 0;
 
@@ -50,7 +53,7 @@ public:
                               const std::byte* from, std::size_t bytes) = 0;
     virtual void clear(int device, device_stream stream, std::byte* memory, std::size_t bytes) = 0;
     virtual void launch(int device, device_stream stream, const device_kernel& kernel,
-                        const device_work& work) = 0;
+                        std::uint64_t n_blocks, const device_work& work) = 0;
 
     /// Until everything asked of the stream is done; an error of any of it is thrown here.
     virtual void wait(int device, device_stream stream) = 0;

@@ -7,11 +7,17 @@
 
 namespace hopscotch {
 
+/// The part of a device that one worker may take.
+struct device_share {
+    std::size_t bytes = 0;            // of tables and layers
+    std::size_t workspace_bytes = 0;  // of threads that need memory beside their stack
+    std::uint64_t of_workers = 1;     // that such threads are shared out to
+};
+
 /// Used by one thread at a time.
 class device_worker {
 public:
-    /// \param most_bytes  of the device's memory that this worker may take
-    device_worker(device_runtime& runtime, int device, std::size_t most_bytes);
+    device_worker(device_runtime& runtime, int device, const device_share& share);
     ~device_worker();
     device_worker(const device_worker&) = delete;
     device_worker& operator=(const device_worker&) = delete;
@@ -35,13 +41,17 @@ private:
     };
 
     void grow(std::size_t bytes);
+    void grow_workspace(std::size_t bytes);
     void release() noexcept;
+    std::uint64_t blocks_for(const device_kernel& kernel, std::uint64_t n_cells);
 
     device_runtime& runtime_;
     int device_;
-    std::size_t most_bytes_;
+    device_share share_;
     device_stream stream_;
     memory memory_;  // counters, tables, layers; the same offsets on both sides
+    std::byte* workspace_ = nullptr;
+    std::size_t workspace_bytes_ = 0;
     cell_piece piece_;
 };
 

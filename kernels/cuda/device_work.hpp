@@ -4,6 +4,7 @@
 
 #include "kernels/ensemble/request.hpp"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace hopscotch {
@@ -22,12 +23,14 @@ struct device_work {
     std::uint64_t first_cell = 0;
     std::uint64_t n_cells = 0;  // from first_cell on
     device_counters* counters = nullptr;
+    std::byte* workspace = nullptr;  // of all threads, see thread_workspace.hpp
 };
 
 /// A kernel as the runtime knows it, with the threads per block it is compiled for.
 struct device_kernel {
     const void* function;
     int threads_per_block;
+    std::size_t workspace_bytes = 0;  // that each thread needs beside its stack
 };
 
 /// Computes a request on the GPUs of this machine and returns when its results lie in the host's

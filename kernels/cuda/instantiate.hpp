@@ -11,8 +11,6 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
-inline constexpr int threads_per_block = 128;
-
 /// The ensemble loops a thread can run.
 template <class Model, int Variant>
 using thread_ensemble = ensemble<Model, Variant, double, persistent_lane>;
@@ -23,6 +21,7 @@ template <class Lanes>
 __global__ void __launch_bounds__(threads_per_block)
     compute_cells(const __grid_constant__ device_work work) {
     gpu_warp threads(work.counters);
+    open_workspace<Lanes>(work, blockIdx.x * blockDim.x + threadIdx.x);
     Lanes lanes(work.request);
     lanes.run(work.first_cell, work.n_cells, threads);
 }
@@ -33,7 +32,7 @@ lane_statistics run_kernel(const ensemble_request& request) {
     complete.end_section =
         Model::info.sections[static_cast<std::size_t>(request.section)].returns_to;
     const void* const function = reinterpret_cast<const void*>(&compute_cells<Lanes>);
-    return run_on_devices({function, threads_per_block}, complete);
+    return run_on_devices({function, threads_per_block, Lanes::workspace_bytes}, complete);
 }
 
 template <class Model, class Variants>

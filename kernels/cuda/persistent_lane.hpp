@@ -5,6 +5,7 @@
 
 #include "kernels/contract/model.hpp"
 #include "kernels/cuda/device_work.hpp"
+#include "kernels/cuda/thread_workspace.hpp"
 #include "kernels/lanes/scalar.hpp"
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
@@ -25,6 +26,15 @@ concept warp = requires(Warp& threads, bool flag, const lane_statistics& statist
     { Warp::width } -> std::convertible_to<int>;
 };
 
+/// Gives a thread its part of the launch's workspace.
+template <class Lanes>
+HOPSCOTCH_DEVICE inline void open_workspace(const device_work& work, unsigned thread) {
+    if constexpr (Lanes::workspace_bytes > 0) {
+        using space = thread_workspace<typename Lanes::stored>;
+        space::open(work.workspace, Lanes::workspace_bytes, thread);
+    }
+}
+
 /// One lane without a prepared pack: the base of the ensemble loops where a lane is a thread.
 /// Offers what refilled_lanes (ensemble/refill.hpp) offers to the class derived from it.
 template <class Ensemble, class State, class Real>
@@ -32,6 +42,8 @@ class persistent_lane {
     static_assert(width_of<Real> == 1);
 
 public:
+    static constexpr std::size_t workspace_bytes = 0;  // unless the ensemble says otherwise
+
     HOPSCOTCH_DEVICE explicit persistent_lane(const ensemble_request& request)
         : request_(request) {}
 

@@ -5,6 +5,7 @@
 
 #include "kernels/ensemble/exponent_estimate.hpp"
 #include "kernels/ensemble/refill.hpp"
+#include "kernels/integrators/taylor.hpp"
 
 #include <iterator>
 
@@ -54,8 +55,15 @@ class tangent_ensemble : public Lanes<tangent_ensemble<Model, Variant, Real, Lan
     using number = dual<Real, n>;
     using space = tangent_space<Model, Variant, Real, n>;
 
+    /// Threads carry one direction at a time where series would fill their memory.
+    static constexpr bool in_series = lanes_are_threads && integrates<Model, Variant, number>;
+
 public:
     using lanes::lanes;
+
+    /// What a thread keeps outside of its stack, and how much of it.
+    using stored = dual<Real, 1>;
+    static constexpr std::size_t workspace_bytes = in_series ? taylor::workspace_bytes<stored> : 0;
 
 private:
     friend lanes;
@@ -98,8 +106,12 @@ private:
     }
 
     HOPSCOTCH_DEVICE void advance(state& at, const std::uint64_t* cells, mask_of<Real> active) {
-        unwatched watch;
-        settle(at, cells, Model::template step<Variant>(at.motion, active, watch), active);
+        if constexpr (in_series && n > 1) {
+            settle(at, cells, space::step_one_by_one(at.motion, active), active);
+        } else {
+            unwatched watch;
+            settle(at, cells, Model::template step<Variant>(at.motion, active, watch), active);
+        }
     }
 
     /// One direction of a cheap map costs little beside calls: what every step does becomes one

@@ -118,6 +118,29 @@ public:
         }
     }
 
+    /// One step with one direction after the other: the bits of a step with all of them together,
+    /// in the memory of one, for the work of N steps' values.
+    HOPSCOTCH_DEVICE static progress<number> step_one_by_one(lane& at,
+                                                             const mask_of<Real>& active) {
+        using narrow = dual<T, 1>;
+        lane_of<Model, Variant, narrow> one;
+        static_assert(sizeof one / sizeof(narrow) == n_fields);
+        narrow* const its = reinterpret_cast<narrow*>(&one);
+        progress<narrow> done{};
+#pragma GCC unroll 1
+        for (int k = 0; k < N; ++k) {
+            for (int f = 0; f < n_fields; ++f) {
+                its[f].value = field(at, f).value;
+                its[f].slope[0] = field(at, f).slope[k];
+            }
+            unwatched watch;
+            done = Model::template step<Variant>(one, active, watch);
+            for (int f = 0; f < n_fields; ++f) field(at, f).slope[k] = its[f].slope[0];
+        }
+        for (int f = 0; f < n_fields; ++f) field(at, f).value = its[f].value;
+        return {done.returned, number(primal(done.ended))};
+    }
+
     /// The slopes of all fields from a lane that was begun at the same state; values stay. They
     /// must not be carried on forever instead: rounding leaves the tangent space of the section by
     /// way of what an orbit conserves (a runner's speed is stored in several fields), and does not

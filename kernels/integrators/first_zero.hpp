@@ -8,23 +8,21 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET::taylor {
 
-/// A guard's polynomial with its known zeros at t = 0 divided out. A guard that has just fired (or
-/// an arc that begins on its own guard) is exactly zero there; what is left is positive.
+/// Divides a guard's known zeros at t = 0 out of its polynomial. A guard that has just fired (or an
+/// arc that begins on its own guard) is exactly zero there; what is left is positive.
 ///
 /// \param guard   positive while nothing happens, falls through zero at the event
 /// \param zeros   lane-wise 0, 1, 2 or 3: how many leading coefficients are zero by definition
 template <class Real>
-HOPSCOTCH_DEVICE inline series<Real> without_zeros(const series<Real>& guard, const Real& zeros) {
-    series<Real> result = guard;
+HOPSCOTCH_DEVICE inline void divide_out_zeros(series<Real>& guard, const Real& zeros) {
     for (int k = 1; k <= 3; ++k) {
         const mask_of<Real> shifted = zeros >= Real(static_cast<double>(k));
         if (!any(shifted)) break;
         for (int n = 0; n < order<Real>; ++n) {
-            result.c[n] = select(shifted, result.c[n + 1], result.c[n]);
+            guard.c[n] = select(shifted, guard.c[n + 1], guard.c[n]);
         }
-        result.c[order<Real>] = select(shifted, Real(0.0), result.c[order<Real>]);
+        guard.c[order<Real>] = select(shifted, Real(0.0), guard.c[order<Real>]);
     }
-    return result;
 }
 
 template <class Real>
@@ -223,7 +221,7 @@ HOPSCOTCH_DEVICE inline guard_search<Real> zero_by_safe_steps(const series<Real>
 
 /// First time in [0, horizon] at which the guard is zero or below.
 ///
-/// \param guard    from `without_zeros`; its value at 0 decides: <= 0 there gives time 0
+/// \param guard    after `divide_out_zeros`; its value at 0 decides: <= 0 there gives time 0
 /// \param horizon  length of the step
 /// \param wanted   lanes to search
 /// \error  touching to rounding counts. Guards that bounds show to stay positive, or to fall on the

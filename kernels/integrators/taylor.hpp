@@ -27,6 +27,7 @@
 // tolerance. Beyond 1e-2 a step would leave the radius of convergence.
 #pragma once
 
+#include "kernels/cuda/thread_workspace.hpp"
 #include "kernels/elementary/elementary.hpp"
 #include "kernels/events/bracketed_root.hpp"
 #include "kernels/lanes/implicit_root.hpp"
@@ -55,11 +56,24 @@ HOPSCOTCH_DEVICE constexpr double tolerance_for(double asked) {
     return is_binary64_wide && asked > 0.0 ? asked : default_tolerance<Real>;
 }
 
-/// Coefficients of t^0 ... t^order.
+/// Coefficients of t^0 ... t^order. A GPU thread has no stack for them where they carry
+/// derivatives.
 template <class Real>
 struct series {
     Real c[order<Real> + 1];
 };
+template <class Real>
+requires(lanes_are_threads && !without_derivatives<Real>) struct series<Real> {
+    workspace_array<Real, order<Real> + 1> c;
+};
+
+/// The most series that are alive at once in a step of any model.
+inline constexpr int most_series = 16;
+
+/// What they take of a GPU thread's workspace.
+template <class Real>
+inline constexpr std::size_t workspace_bytes =
+    thread_workspace<Real>::bytes(most_series*(order<Real> + 1));
 
 /// Coefficient n of the product a b.
 template <class Real>

@@ -105,12 +105,17 @@ struct relief_valve {
         using plain = primal_of<Real>;
         const Real zero(0.0);
         const Real one(1.0);
-        const motion<Real> a = expand(lane);
+        motion<Real> a;
+        expand(a, lane);
         const plain horizon = a.size.length(primal(lane.tolerance), plain(4.0));
 
-        const auto seat =
-            taylor::first_zero(taylor::without_zeros(a.x, lane.seat_zeros), horizon, active);
-        taylor::series<Real> turning = taylor::without_zeros(a.v, lane.turn_zeros);
+        taylor::series<Real> closing;
+        closing = a.x;
+        taylor::divide_out_zeros(closing, lane.seat_zeros);
+        const auto seat = taylor::first_zero(closing, horizon, active);
+        taylor::series<Real> turning;
+        turning = a.v;
+        taylor::divide_out_zeros(turning, lane.turn_zeros);
         const mask_of<Real> rises = lane.rising > zero;
         for (int n = 0; n <= taylor::order<Real>; ++n)
             turning.c[n] = negate_where(!rises, turning.c[n]);
@@ -185,9 +190,8 @@ private:
     };
 
     template <class Real>
-    HOPSCOTCH_DEVICE static motion<Real> expand(const lane<Real>& lane) {
+    HOPSCOTCH_DEVICE static void expand(motion<Real>& a, const lane<Real>& lane) {
         using taylor::over;
-        motion<Real> a;
         taylor::series<Real> force;
         a.x.c[0] = lane.x;
         a.v.c[0] = lane.v;
@@ -233,7 +237,6 @@ private:
         a.size.watch(a.x);
         a.size.watch(a.v);
         a.size.watch(a.root);
-        return a;
     }
 
     /// Acceleration and pressure rate of the disc at v = 0, rounded as in `expand`, so that their

@@ -27,7 +27,7 @@ struct nonlinear_motion {
 };
 
 template <class Real>
-HOPSCOTCH_DEVICE inline nonlinear_motion<Real> expand(const nonlinear_lane<Real>& lane) {
+HOPSCOTCH_DEVICE inline void expand(nonlinear_motion<Real>& a, const nonlinear_lane<Real>& lane) {
     using taylor::over;
     const Real zero(0.0);
     const Real one(1.0);
@@ -37,7 +37,6 @@ HOPSCOTCH_DEVICE inline nonlinear_motion<Real> expand(const nonlinear_lane<Real>
     const Real in_air = select(grounded, zero, one);
     const Real stiffening = lane.gradient * lane.inverse_total;
     const Real damper = Real(2.0) * lane.damping;
-    nonlinear_motion<Real> a;
     taylor::series<Real> squares;
     a.s.c[0] = lane.s;
     a.rate.c[0] = lane.rate;
@@ -60,7 +59,6 @@ HOPSCOTCH_DEVICE inline nonlinear_motion<Real> expand(const nonlinear_lane<Real>
         }
     }
     a.pull.c[taylor::order<Real>] = zero;
-    return a;
 }
 
 /// Where a step came to.
@@ -104,8 +102,8 @@ HOPSCOTCH_DEVICE inline nonlinear_step<Real> advance(const nonlinear_motion<Real
         event.c[n] = select(grounded, -a.pull.c[n], a.gap.c[n]);
         turning.c[n] = negate_where(!rising, a.rate.c[n]);
     }
-    event = taylor::without_zeros(event, select(grounded, slack_zeros, lane.gap_zeros));
-    turning = taylor::without_zeros(turning, select(still, one, zero));
+    taylor::divide_out_zeros(event, select(grounded, slack_zeros, lane.gap_zeros));
+    taylor::divide_out_zeros(turning, select(still, one, zero));
     const auto first = taylor::first_zero(event, horizon, active);
     const auto turn = taylor::first_zero(turning, horizon, grounded);
 

@@ -160,7 +160,8 @@ HOPSCOTCH_DEVICE inline progress<Real> step_nonlinear(nonlinear_lane<Real>& lane
     const mask_of<Real> at_rest =
         active & (lane.gap_zeros == Real(3.0)) & (lane.rate == zero) & (lane.in_contact == zero);
     const mask_of<Real> moves = active & !at_rest;
-    const nonlinear_motion<Real> a = expand(lane);
+    nonlinear_motion<Real> a;
+    expand(a, lane);
     const nonlinear_step<Real> step = advance(a, lane, moves);
     const Real t = step.duration;
     if constexpr (Watch::is_active) {

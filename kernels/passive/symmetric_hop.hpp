@@ -38,7 +38,8 @@ inline shot<Real> shoot(nonlinear_lane<Real> lane, const Real& height, const Rea
     Real left = half_time;
     for (int i = 0; i < 10000; ++i) {
         lane.pull = pull_of(lane);
-        const nonlinear_motion<Real> a = expand(lane);
+        nonlinear_motion<Real> a;
+        expand(a, lane);
         taylor::step_length<Real> size;
         size.watch(a.s);
         size.watch(a.rate);

@@ -38,10 +38,10 @@ struct arc_series {
 };
 
 template <class Real>
-HOPSCOTCH_DEVICE inline arc_series<Real> expand(const arc_state<Real>& from, const Real& stiffness,
-                                                const Real& friction, const Real& gravity) {
+HOPSCOTCH_DEVICE inline void expand(arc_series<Real>& a, const arc_state<Real>& from,
+                                    const Real& stiffness, const Real& friction,
+                                    const Real& gravity) {
     using taylor::over;
-    arc_series<Real> a;
     a.length.c[0] = from.length;
     a.velocity.c[0] = from.velocity;
     a.time.c[0] = Real(0.0);
@@ -58,7 +58,6 @@ HOPSCOTCH_DEVICE inline arc_series<Real> expand(const arc_state<Real>& from, con
         next(n, drift.first);
         next(n + 1, taylor::completed(drift.rest, a.length, a.velocity, n + 1));
     }
-    return a;
 }
 
 template <class Real>

@@ -56,8 +56,9 @@ HOPSCOTCH_DEVICE inline progress<Real> step_with_friction(hopper_lane<Real>& lan
     const mask_of<Real> flows = (extends & !fails) | (compresses & !stays);
 
     const arc_state<Real> from{lane.length, lane.depth, lane.velocity};
-    const auto a = expand(from, select(lane.extending > zero, lane.spring, lane.stiffness),
-                          lane.friction, lane.gravity);
+    arc_series<Real> a;
+    expand(a, from, select(lane.extending > zero, lane.spring, lane.stiffness), lane.friction,
+           lane.gravity);
     const plain horizon = step_of(a, lane.tolerance);
     const Real still = select(extends & (lane.velocity == zero), one, zero);
     // each arc ends at its own guard: the bottom, or lift-off; an extension may also turn first
@@ -66,8 +67,10 @@ HOPSCOTCH_DEVICE inline progress<Real> step_with_friction(hopper_lane<Real>& lan
         ending.c[n] = select(extends, -a.length.c[n], -a.velocity.c[n]);
     ending.c[0] = select(extends, a.depth, ending.c[0]);
     const auto end = taylor::first_zero(ending, horizon, flows);
-    const auto falls_back =
-        taylor::first_zero(taylor::without_zeros(a.velocity, still), horizon, flows & extends);
+    taylor::series<Real> rising;
+    rising = a.velocity;
+    taylor::divide_out_zeros(rising, still);
+    const auto falls_back = taylor::first_zero(rising, horizon, flows & extends);
     taylor::guard_search<Real> off = end;
     off.found = end.found & extends;
     off.unresolved = end.unresolved & extends;

@@ -193,7 +193,7 @@ HOPSCOTCH_DEVICE inline pitching_step<Real> advance(const pitching_series<Real>&
         centre.c[n] = fma(-lane.hip, a.cos.c[n], a.y.c[n]);
     }
     guard.c[0] = IsAir ? a.length.c[0] - Real(1.0) : Real(1.0) - a.length.c[0];
-    guard = taylor::without_zeros(guard, untouched);
+    taylor::divide_out_zeros(guard, untouched);
     guard.c[0] = select(untouched > Real(0.0), IsAir ? closing + closing : closing, guard.c[0]);
     const auto off = taylor::first_zero(guard, horizon, active);
     const auto hip_down = taylor::first_zero(a.y, horizon, active);

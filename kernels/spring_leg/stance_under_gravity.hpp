@@ -160,7 +160,9 @@ HOPSCOTCH_DEVICE inline stance_step<Real> advance(const stance_series<Real>& a,
     size.watch(a.y_rate);
     size.watch(a.length);
     const plain horizon = size.length(primal(tolerance), plain(8.0));
-    taylor::series<Real> guard = taylor::without_zeros(a.guard, untouched);
+    taylor::series<Real> guard;
+    guard = a.guard;
+    taylor::divide_out_zeros(guard, untouched);
     guard.c[0] = select(untouched > Real(0.0), closing, guard.c[0]);
     const auto off = taylor::first_zero(guard, horizon, active);
     const auto down = taylor::first_zero(a.y, horizon, active);

@@ -13,12 +13,15 @@
 
 namespace hopscotch::inline HOPSCOTCH_TARGET {
 
-/// One warp's share of a launch; what fake_runtime runs.
+/// One warp's share of a launch; what fake_runtime runs. Its fibers take turns only where none of
+/// them holds anything in its workspace, so that the last one to open its part serves all of them.
 template <class Lanes>
-void compute_cells(const device_work& work) {
+void compute_cells(const device_work& work, unsigned block) {
+    constexpr unsigned n = emulation::fiber_group::size;
     emulation::fiber_group fibers;
-    fibers.run([&](int) {
+    fibers.run([&](int lane) {
         emulation::emulated_warp threads(fibers, *work.counters);
+        open_workspace<Lanes>(work, block * n + static_cast<unsigned>(lane));
         Lanes lanes(work.request);
         lanes.run(work.first_cell, work.n_cells, threads);
     });
@@ -30,7 +33,8 @@ lane_statistics run_emulated(const ensemble_request& request) {
     complete.end_section =
         Model::info.sections[static_cast<std::size_t>(request.section)].returns_to;
     const void* const function = reinterpret_cast<const void*>(&compute_cells<Lanes>);
-    return emulation::run_on_emulated_device({function, emulation::fiber_group::size}, complete);
+    return emulation::run_on_emulated_device(
+        {function, emulation::fiber_group::size, Lanes::workspace_bytes}, complete);
 }
 
 template <class Model, class Variants>

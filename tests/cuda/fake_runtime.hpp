@@ -18,14 +18,14 @@
 
 namespace hopscotch::emulation {
 
-/// What a device_kernel's function points to here: the work of one warp.
-using warp_function = void (*)(const device_work&);
+/// What a device_kernel's function points to here: the work of one block, which is one warp.
+using warp_function = void (*)(const device_work&, unsigned block);
 
 class fake_runtime final : public device_runtime {
 public:
     int devices = 1;
     std::size_t free_bytes = std::size_t{1} << 30;
-    int warps_per_launch = 2;  // each on a thread of its own
+    std::uint64_t resident_blocks = 2;  // of a device; each on a thread of its own
 
     std::string failing_call;     // the name of a call, as an error gives it
     int calls_until_failure = 0;  // of that name; the device stays lost afterwards
@@ -44,6 +44,7 @@ public:
         int n_streams = 0;
         int most_in_flight = 0;  // streams with work not yet waited for
         std::size_t most_bytes = 0;
+        std::uint64_t most_blocks = 0;  // of a launch
         std::vector<int> launches_of_device = std::vector<int>(16);
     };
     record seen() const {
@@ -118,18 +119,28 @@ public:
         require_inside(memory_, memory, bytes);
         later(to_stream, [=] { std::memset(memory, 0, bytes); });
     }
+    std::uint64_t most_blocks(int device, const device_kernel&) override {
+        check("cudaOccupancyMaxActiveBlocksPerMultiprocessor", device);
+        return resident_blocks;
+    }
     void launch(int device, device_stream to_stream, const device_kernel& kernel,
-                const device_work& work) override {
+                std::uint64_t n_blocks, const device_work& work) override {
         check("cudaLaunchKernel", device);
         {
             const std::lock_guard lock(mutex_);
             ++record_.n_launches;
+            record_.most_blocks = std::max(record_.most_blocks, n_blocks);
             ++record_.launches_of_device[static_cast<std::size_t>(device)];
         }
         const auto function = reinterpret_cast<warp_function>(const_cast<void*>(kernel.function));
-        later(to_stream, [=, n = warps_per_launch] {
+        const std::size_t workspace =
+            n_blocks * kernel.workspace_bytes * static_cast<std::size_t>(kernel.threads_per_block);
+        if (workspace > 0) require_inside(memory_, work.workspace, workspace);
+        later(to_stream, [=] {
             std::vector<std::jthread> warps;
-            for (int i = 0; i < n; ++i) warps.emplace_back([&work, function] { function(work); });
+            for (unsigned block = 0; block < n_blocks; ++block) {
+                warps.emplace_back([&work, function, block] { function(work, block); });
+            }
         });
     }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What nvcc makes of one model's kernels: no device heap, no printing, no contraction of products and sums
 # (every addition and multiplication is rounded by itself, and fused ones are those written), no
-# recursion. Usage: test_ptx.sh NVCC SOURCE_DIR MODEL kernels|tangents FLAG...
+# recursion, and stacks that leave room in 2 GiB of the largest device. Usage: test_ptx.sh NVCC SOURCE_DIR MODEL kernels|tangents FLAG...
 set -euo pipefail
 nvcc=$1 source=$2 model=$3 kind=$4
 shift 4
@@ -29,4 +29,9 @@ claim "division and square root are rounded correctly" has_none '\b(div|sqrt|rcp
 claim "single precision is not used" has_none '\b(add|sub|mul|fma|div|sqrt)\.[a-z.]*f32\b'
 # the host's compiler would use the C library where device code calls it
 claim "no function of CUDA's mathematical library" has_none '__nv_|__internal_(trig|sin|cos|exp|log|pow)'
+# the driver keeps a stack for every thread that the device could hold: 2048 x 132 of an H200, beside 512 MiB of
+# tiles and workspace (host/device/device_pool.hpp) and what is left of 2 GiB for the context and code
+"$(dirname "$nvcc")/ptxas" -arch=sm_90 -v "$work/unit.ptx" -o "$work/unit.cubin" 2>"$work/log"
+stack=$(sed -n 's/^ *\([0-9]*\) bytes stack frame.*/\1/p' "$work/log" | sort -n | tail -1)
+claim "the largest stack, $stack bytes, is at most 4000 (1.08 GB on the device)" [ "$stack" -le 4000 ]
 exit $((failures > 0))

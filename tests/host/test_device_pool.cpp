@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 /// One warp's share of a kernel that writes what it reads: start, parameter, trap of the cell's
 /// point, and counts a step per cell of which every second one is useful.
-void echo(const device_work& work) {
+void echo(const device_work& work, unsigned) {
     const ensemble_request& request = work.request;
     while (true) {
         const std::uint64_t number = std::atomic_ref(work.counters->drawn)++;
@@ -160,6 +160,49 @@ TEST(device_pool, pieces_follow_the_free_memory) {
     EXPECT_LE(runtime.seen().most_bytes, 150000u);
 }
 
+/// As echo; first every thread of the block fills its part of the workspace with the block's
+/// number, and at the end finds it as it was.
+void echo_beside_workspace(const device_work& work, unsigned block) {
+    constexpr std::size_t bytes = 32 * 100;  // of a block
+    std::byte* const mine = work.workspace + block * bytes;
+    std::fill(mine, mine + bytes, static_cast<std::byte>(block));
+    echo(work, block);
+    const bool is_whole = std::all_of(
+        mine, mine + bytes, [&](std::byte b) { return b == static_cast<std::byte>(block); });
+    if (!is_whole) work.request.outcome[work.first_cell] = 99;
+}
+
+const device_kernel workspace_kernel{reinterpret_cast<const void*>(&echo_beside_workspace), 32,
+                                     100};
+
+TEST(device_pool, workers_share_the_threads_that_need_workspace) {
+    fake_runtime runtime;
+    runtime.resident_blocks = 12;
+    grid_request grid(1000, 10);
+    {
+        device_pool pool(runtime, {.workers_per_device = 3, .least_cells = 1000});
+        pool.run(workspace_kernel, grid.request);
+        grid.expect_answered();
+        EXPECT_EQ(runtime.seen().most_blocks, 4u);
+        pool.run(echo_kernel, grid.request);  // this one needs none
+        EXPECT_EQ(runtime.seen().most_blocks, 12u);
+    }
+    EXPECT_TRUE(runtime.is_clean());
+}
+
+TEST(device_pool, workspace_stays_within_its_limit) {
+    fake_runtime runtime;
+    runtime.resident_blocks = 500;
+    const std::size_t limit = 3 * 7 * 3200;  // seven blocks of each worker
+    grid_request grid(1000, 10);
+    device_pool pool(
+        runtime, {.workers_per_device = 3, .most_bytes = 600000, .most_workspace_bytes = limit});
+    pool.run(workspace_kernel, grid.request);
+    grid.expect_answered();
+    EXPECT_EQ(runtime.seen().most_blocks, 7u);
+    EXPECT_LE(runtime.seen().most_bytes, 600000u + limit);
+}
+
 TEST(device_pool, tables_that_do_not_fit_are_an_error_that_says_so) {
     fake_runtime runtime;
     grid_request grid(100000, 1);
@@ -205,6 +248,7 @@ INSTANTIATE_TEST_SUITE_P(every, failing_call,
                                          "cudaStreamCreateWithFlags",
                                          "cudaMemcpyAsync to the device",
                                          "cudaMemcpyAsync to the host", "cudaMemsetAsync",
+                                         "cudaOccupancyMaxActiveBlocksPerMultiprocessor",
                                          "cudaLaunchKernel", "cudaStreamSynchronize"),
                          [](const auto& call) {
                              std::string name = call.param;
