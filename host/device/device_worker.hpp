@@ -22,6 +22,8 @@ public:
     device_worker(const device_worker&) = delete;
     device_worker& operator=(const device_worker&) = delete;
 
+    int device() const { return device_; }
+
     /// The most cells of a request that fit. \error device_error where its tables do not fit
     std::uint64_t most_cells(const device_layout& layout) const;
 

@@ -3,13 +3,18 @@
 
 #include "host/run/device_error.hpp"
 
+#include <atomic>
+
 namespace hopscotch {
 namespace {
+
+std::atomic<const device_pool*> opened = nullptr;
 
 /// Never destroyed: at the end of the process the driver may be gone before it, and the system
 /// takes the memory back.
 device_pool& all_devices() {
     static device_pool& pool = *new device_pool(cuda_devices());
+    opened = &pool;
     return pool;
 }
 
@@ -32,6 +37,11 @@ std::string_view device_arithmetic() {
 }
 
 std::string device_names() { return all_devices().names(); }
+
+std::string device_failures() {
+    const device_pool* const pool = opened;
+    return pool != nullptr ? pool->failures() : "";
+}
 
 lane_statistics run_on_devices(const device_kernel& kernel, const ensemble_request& request) {
     return all_devices().run(kernel, request);

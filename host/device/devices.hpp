@@ -22,4 +22,8 @@ std::string_view device_arithmetic();
 /// "NVIDIA H200", or "2 x NVIDIA H200". \error device_error where there is none
 std::string device_names();
 
+/// What the devices that have failed in this process have said, while others go on; "" where all
+/// work.
+std::string device_failures();
+
 }  // namespace hopscotch

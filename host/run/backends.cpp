@@ -28,6 +28,15 @@ std::string reason_against_gpu() {
 #endif
 }
 
+/// Where a backend tells of devices that it has lost.
+std::string (*failures_of(backend which))() {
+#ifdef HOPSCOTCH_HAS_CUDA
+    if (which == backend::cuda) return &device_failures;
+#endif
+    static_cast<void>(which);
+    return nullptr;
+}
+
 bool is_built(const model_entry& model, backend which, kernel_kind kind) {
     return kind == kernel_kind::plain ? model.has(which) : model.has_tangent(which);
 }
@@ -74,7 +83,8 @@ kernel_choice choose_kernel(const model_entry& model, int variant, std::string_v
         if (reason.empty()) {
             return {which, variant,
                     kind == kernel_kind::plain ? model.kernel(which, variant)
-                                               : model.tangent(which, variant)};
+                                               : model.tangent(which, variant),
+                    failures_of(which)};
         }
         if (!is_auto) {
             throw device_error(fmt::format("--backend {} ({}); --backend auto?", wanted, reason));

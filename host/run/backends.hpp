@@ -30,6 +30,8 @@ struct kernel_choice {
     backend which = backend::scalar;
     int variant = 0;
     ensemble_function run = nullptr;
+    /// Of several devices: what those that have failed have said, while the others go on.
+    std::string (*failures)() = nullptr;
 };
 
 /// Why this machine cannot run the backend, or "".

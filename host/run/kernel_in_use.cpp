@@ -30,8 +30,15 @@ std::string kernel_in_use::backends() const {
 }
 
 std::string kernel_in_use::failure() const {
-    const std::lock_guard lock(mutex_);
-    return failure_;
+    {
+        const std::lock_guard lock(mutex_);
+        if (!failure_.empty()) return failure_;
+    }
+    return first_.failures != nullptr ? first_.failures() : "";
+}
+
+std::string_view kernel_in_use::successor() const {
+    return has_failed_ ? "the processor" : "the other devices";
 }
 
 kernel_in_use choose_kernel_for_map(const model_entry& model, int variant, std::string_view wanted,

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace hopscotch {
 
@@ -23,8 +24,10 @@ public:
 
     /// "avx512", or "cuda, avx512" after a failure.
     std::string backends() const;
-    /// What the device's runtime has said; empty where all is well.
+    /// What the runtime of a device has said that has failed; empty where all is well.
     std::string failure() const;
+    /// Who has gone on after it: "the processor", or "the other devices".
+    std::string_view successor() const;
 
 private:
     kernel_choice first_;

@@ -325,8 +325,9 @@ private:
                                          ? fmt::format("of {} ranks other than the first", n_failed)
                                          : of_helper;
         }
-        report_.notes.push_back(fmt::format("the device failed ({}): computed on by the processor",
-                                            report_.device_failure));
+        report_.notes.push_back(
+            fmt::format("the device failed ({}): computed on by {}", report_.device_failure,
+                        failure.empty() ? "the processor or other devices" : kernel_.successor()));
     }
 
     /// Searches for attractors from the cells that the first pass has left without a label. Returns

@@ -35,6 +35,7 @@ public:
     void repair() {
         const std::lock_guard lock(mutex_);
         is_lost_ = false;
+        lost_device = -1;
         failing_call.clear();
     }
 

@@ -31,7 +31,7 @@ protected:
         std::filesystem::create_directory(folder_);
     }
     ~lost_device() override {
-        emulation::emulated_runtime().repair();
+        emulation::repair_emulated_devices();
         std::filesystem::remove_all(folder_);
     }
 
@@ -49,7 +49,9 @@ protected:
         hooks.kernel = [&](const scene& scene) {
             const int variant = variant_of(scene);
             const auto of = [&](backend which) {
-                return kernel_choice{which, variant, model().kernel(which, variant)};
+                return kernel_choice{
+                    which, variant, model().kernel(which, variant),
+                    which == backend::cuda ? &emulation::emulated_failures : nullptr};
             };
             return has_processor ? kernel_in_use(of(backend::cuda), of(backend::scalar))
                                  : kernel_in_use(of(backend::cuda));
@@ -68,8 +70,10 @@ protected:
         return run_map(scene_, choices, hooks).hash;
     }
 
-    static void lose(const char* call, int after) {
+    /// From the call of that number on every call fails, of one device or of both.
+    static void lose(const char* call, int after, int device = -1) {
         emulation::fake_runtime& runtime = emulation::emulated_runtime();
+        runtime.lost_device = device;
         runtime.failing_call = call;
         runtime.calls_until_failure = after;
     }
@@ -106,13 +110,43 @@ TEST_F(lost_device, is_told_by_a_map_that_the_processor_has_finished) {
         EXPECT_TRUE(report.is_finished);
         EXPECT_EQ(report.hash, undisturbed);
         EXPECT_EQ(report.backend, "cuda, scalar");
-        EXPECT_NE(report.device_failure.find(call), std::string::npos) << report.device_failure;
+        // one after the other, and each says why
+        for (const char* part : {"device 0: ", "device 1: ", call}) {
+            EXPECT_NE(report.device_failure.find(part), std::string::npos) << report.device_failure;
+        }
         const map_reader map(file("map.h5"));
         EXPECT_EQ(map.attribute("backend"), "cuda, scalar");
         EXPECT_EQ(map.attribute("device_failure"), report.device_failure);
         ASSERT_FALSE(report.notes.empty());
         EXPECT_NE(report.notes.back().find("computed on by the processor"), std::string::npos);
-        emulation::emulated_runtime().repair();
+        emulation::repair_emulated_devices();
+    }
+}
+
+TEST_F(lost_device, leaves_its_tiles_to_the_other_device_whoever_stands_behind) {
+    const std::string undisturbed = hash_of_processor();
+    for (const bool has_processor : {true, false}) {
+        for (const char* call : {"cudaMemcpyAsync to the host", "cudaStreamSynchronize"}) {
+            SCOPED_TRACE(call);
+            const auto before = emulation::emulated_runtime().seen().launches_of_device;
+            lose(call, 5, 1);
+            const run_report report = run("map.h5", has_processor, if_exists::replace);
+            const auto after = emulation::emulated_runtime().seen().launches_of_device;
+            EXPECT_TRUE(report.is_finished);
+            EXPECT_EQ(report.hash, undisturbed);
+            EXPECT_EQ(report.backend, "cuda");
+            EXPECT_GT(after[1], before[1]);  // its last tile was under way
+            EXPECT_GT(after[0] - before[0], 48 - (after[1] - before[1]));  // and was computed again
+            const map_reader map(file("map.h5"));
+            EXPECT_EQ(map.attribute("backend"), "cuda");
+            EXPECT_EQ(map.attribute("device_failure"), report.device_failure);
+            EXPECT_EQ(report.device_failure.find(std::string("device 1: ") + call), 0U)
+                << report.device_failure;
+            ASSERT_FALSE(report.notes.empty());
+            EXPECT_NE(report.notes.back().find("computed on by the other devices"),
+                      std::string::npos);
+            emulation::repair_emulated_devices();
+        }
     }
 }
 
@@ -129,7 +163,7 @@ TEST_F(lost_device, that_was_asked_for_ends_the_run_and_keeps_what_is_finished) 
     const std::size_t n_missing = map_reader(file("map.h5")).missing_tiles().size();
     EXPECT_GT(n_missing, 0U);
     EXPECT_LT(n_missing, 48U);
-    emulation::emulated_runtime().repair();
+    emulation::repair_emulated_devices();
     const run_report resumed = run("map.h5", false, if_exists::resume);
     EXPECT_EQ(resumed.tally.tiles, n_missing);
     EXPECT_EQ(resumed.hash, hash_of_processor());

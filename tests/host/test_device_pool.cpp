@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <thread>
 
@@ -256,6 +257,81 @@ INSTANTIATE_TEST_SUITE_P(every, failing_call,
                              return name;
                          });
 
+class failing_device : public testing::TestWithParam<const char*> {};
+
+TEST_P(failing_device, leaves_its_pieces_to_the_others) {
+    for (int after = 0; after < 7; ++after) {
+        fake_runtime runtime;
+        runtime.devices = 3;
+        runtime.lost_device = 1;
+        runtime.failing_call = GetParam();
+        runtime.calls_until_failure = after;
+        {
+            device_pool pool(runtime, {.workers_per_device = 2, .least_cells = 500});
+            grid_request grid(100, 100);
+            const lane_statistics lanes = pool.run(echo_kernel, grid.request);
+            grid.expect_answered();
+            EXPECT_EQ(lanes.issued, 2 * grid.request.n_cells);  // none is counted twice
+            const int before = runtime.seen().launches_of_device[1];
+            const bool has_failed = !pool.failures().empty();
+            EXPECT_TRUE(has_failed || after > 0);
+            if (has_failed) {
+                EXPECT_THAT(pool.failures(), testing::StartsWith("device 1: "));
+                EXPECT_THAT(pool.failures(), HasSubstr(GetParam()));
+            }
+            grid_request another(90, 90);
+            pool.run(echo_kernel, another.request);
+            another.expect_answered();
+            if (has_failed) EXPECT_EQ(runtime.seen().launches_of_device[1], before);
+        }
+        EXPECT_TRUE(runtime.is_clean());
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(every, failing_device,
+                         testing::Values("cudaGetDeviceProperties", "cudaMalloc", "cudaHostAlloc",
+                                         "cudaStreamCreateWithFlags",
+                                         "cudaMemcpyAsync to the device",
+                                         "cudaMemcpyAsync to the host", "cudaMemsetAsync",
+                                         "cudaOccupancyMaxActiveBlocksPerMultiprocessor",
+                                         "cudaLaunchKernel", "cudaStreamSynchronize"),
+                         [](const auto& call) {
+                             std::string name = call.param;
+                             std::replace(name.begin(), name.end(), ' ', '_');
+                             return name;
+                         });
+
+TEST(device_pool, threads_that_wait_for_a_worker_go_on_when_a_device_fails) {
+    for (const int lost : {0, -1}) {  // one of two, or both
+        fake_runtime runtime;
+        runtime.devices = 2;
+        runtime.lost_device = lost;
+        runtime.failing_call = "cudaStreamSynchronize";
+        runtime.calls_until_failure = 10;
+        device_pool pool(runtime, {.workers_per_device = 1, .least_cells = 64});
+        std::atomic<int> n_answered = 0;
+        {
+            std::vector<std::jthread> threads;
+            for (int i = 0; i < 6; ++i) {
+                threads.emplace_back([&] {
+                    grid_request grid(37, 29);
+                    try {
+                        pool.run(echo_kernel, grid.request);
+                        grid.expect_answered();
+                        ++n_answered;
+                    } catch (const device_error& error) {
+                        for (const char* part : {"device 0: ", "device 1: ", "cudaStreamSync"}) {
+                            EXPECT_THAT(error.what(), HasSubstr(part));
+                        }
+                    }
+                });
+            }
+        }
+        if (lost == 0) EXPECT_EQ(n_answered, 6);
+        if (lost < 0) EXPECT_LT(n_answered, 6);
+    }
+}
+
 int n_processor_runs = 0;
 
 lane_statistics on_the_device(const ensemble_request& request) {
@@ -285,6 +361,18 @@ TEST(kernel_in_use, the_processor_goes_on_when_the_device_is_lost_and_it_is_told
     EXPECT_EQ(n_processor_runs, 3);
     EXPECT_EQ(kernel.backends(), "cuda, avx2");
     EXPECT_EQ(kernel.failure(), "cudaStreamSynchronize (cudaErrorECCUncorrectable)");
+}
+
+TEST(kernel_in_use, devices_that_others_stand_in_for_are_told_of) {
+    kernel_in_use kernel({backend::cuda, 0, &on_the_processor,
+                          [] { return std::string("device 1: cudaMalloc (lost)"); }});
+    std::uint8_t outcome = 0;
+    ensemble_request request;
+    request.outcome = &outcome;
+    kernel.run(request);
+    EXPECT_EQ(kernel.backends(), "cuda");
+    EXPECT_EQ(kernel.failure(), "device 1: cudaMalloc (lost)");
+    EXPECT_EQ(kernel.successor(), "the other devices");
 }
 
 TEST(kernel_in_use, a_device_asked_for_by_name_is_not_replaced) {
