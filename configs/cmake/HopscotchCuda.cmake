@@ -43,6 +43,13 @@ endif()
 function(hopscotch_add_cuda target)
     if(HOPSCOTCH_HAS_CUDA)
         target_sources(${target} PRIVATE host/device/cuda_runtime.cu host/device/devices.cu)
+        # the oldest architecture, to which the runtime's part compares what it finds
+        string(REGEX MATCHALL "[0-9]+" architectures "${CMAKE_CUDA_ARCHITECTURES}")
+        list(SORT architectures COMPARE NATURAL)
+        list(APPEND architectures 0)  # `native`, say: any
+        list(GET architectures 0 oldest)
+        set_source_files_properties(host/device/cuda_runtime.cu PROPERTIES
+            COMPILE_DEFINITIONS HOPSCOTCH_LEAST_CAPABILITY=${oldest})
         set_property(SOURCE host/run/backends.cpp APPEND PROPERTY COMPILE_DEFINITIONS HOPSCOTCH_HAS_CUDA)
         target_link_libraries(${target} PUBLIC CUDA::cudart_static)
         if(HOPSCOTCH_CUDA_FAST)

@@ -4,7 +4,10 @@
 
 #include <cuda_runtime_api.h>
 
+#include <algorithm>
+#include <mutex>
 #include <string>
+#include <vector>
 
 namespace hopscotch {
 namespace {
@@ -27,31 +30,24 @@ cudaStream_t stream_of(device_stream stream) { return static_cast<cudaStream_t>(
 class cuda_runtime final : public device_runtime {
 public:
     int n_devices() override {
-        int n = 0;
-        const cudaError_t status = cudaGetDeviceCount(&n);
-        if (status == cudaErrorNoDevice) return 0;
-        int driver = 0;
-        if (status == cudaErrorInsufficientDriver && cudaDriverGetVersion(&driver) == cudaSuccess &&
-            driver == 0) {
-            throw device_error("there is no NVIDIA driver");
-        }
-        require(status, "cudaGetDeviceCount");
-        return n;
+        const std::lock_guard lock(mutex_);
+        if (usable_.empty()) usable_ = find_usable();
+        return static_cast<int>(usable_.size());
     }
 
     device_description describe(int device) override {
         select(device);
         cudaDeviceProp properties{};
-        require(cudaGetDeviceProperties(&properties, device), "cudaGetDeviceProperties");
+        require(cudaGetDeviceProperties(&properties, usable(device)), "cudaGetDeviceProperties");
         device_description result;
         result.name = properties.name;
         require(cudaMemGetInfo(&result.free_bytes, &result.total_bytes), "cudaMemGetInfo");
         result.n_multiprocessors = properties.multiProcessorCount;
-        result.clock_hertz = 1e3 * attribute(cudaDevAttrClockRate, device);
+        result.clock_hertz = 1e3 * attribute(cudaDevAttrClockRate, usable(device));
         // cores for single precision: 64 in compute capability 8.0, 128 in all later ones
         const int single = properties.major == 8 && properties.minor == 0 ? 64 : 128;
         result.binary64_per_multiprocessor =
-            single / attribute(cudaDevAttrSingleToDoublePrecisionPerfRatio, device);
+            single / attribute(cudaDevAttrSingleToDoublePrecisionPerfRatio, usable(device));
         return result;
     }
 
@@ -62,7 +58,7 @@ public:
         return static_cast<std::byte*>(memory);
     }
     void release(int device, std::byte* memory) noexcept override {
-        cudaSetDevice(device);
+        cudaSetDevice(usable(device));
         cudaFree(memory);
     }
     std::byte* allocate_pinned(int device, std::size_t bytes) override {
@@ -81,7 +77,7 @@ public:
         return stream;
     }
     void close_stream(int device, device_stream stream) noexcept override {
-        cudaSetDevice(device);
+        cudaSetDevice(usable(device));
         cudaStreamDestroy(stream_of(stream));
     }
 
@@ -109,7 +105,8 @@ public:
                                                               kernel.threads_per_block, 0),
                 "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
         return static_cast<std::uint64_t>(resident) *
-               static_cast<std::uint64_t>(attribute(cudaDevAttrMultiProcessorCount, device));
+               static_cast<std::uint64_t>(
+                   attribute(cudaDevAttrMultiProcessorCount, usable(device)));
     }
 
     void launch(int device, device_stream stream, const device_kernel& kernel,
@@ -128,7 +125,42 @@ public:
     }
 
 private:
-    static void select(int device) { require(cudaSetDevice(device), "cudaSetDevice"); }
+    std::mutex mutex_;
+    std::vector<int> usable_;  // devices as CUDA numbers them; not changed once there are some
+
+    int usable(int device) const { return usable_[static_cast<std::size_t>(device)]; }
+    void select(int device) const { require(cudaSetDevice(usable(device)), "cudaSetDevice"); }
+
+    static std::string text_of(int capability) {
+        return std::to_string(capability / 10) + "." + std::to_string(capability % 10);
+    }
+
+    /// Devices that the kernels are built for. Creates no context on any of them.
+    static std::vector<int> find_usable() {
+        int n = 0;
+        const cudaError_t status = cudaGetDeviceCount(&n);
+        if (status == cudaErrorNoDevice) return {};
+        int driver = 0;
+        if (status == cudaErrorInsufficientDriver && cudaDriverGetVersion(&driver) == cudaSuccess &&
+            driver == 0) {
+            throw device_error("there is no NVIDIA driver");
+        }
+        require(status, "cudaGetDeviceCount");
+        std::vector<int> found;
+        int newest = 0;
+        for (int device = 0; device < n; ++device) {
+            const int capability = 10 * attribute(cudaDevAttrComputeCapabilityMajor, device) +
+                                   attribute(cudaDevAttrComputeCapabilityMinor, device);
+            if (capability >= HOPSCOTCH_LEAST_CAPABILITY) found.push_back(device);
+            newest = std::max(newest, capability);
+        }
+        if (n > 0 && found.empty()) {
+            throw device_error("the newest GPU has compute capability " + text_of(newest) +
+                               ", kernels are built from " + text_of(HOPSCOTCH_LEAST_CAPABILITY) +
+                               " on");
+        }
+        return found;
+    }
 };
 
 }  // namespace

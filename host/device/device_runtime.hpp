@@ -29,7 +29,8 @@ class device_runtime {
 public:
     virtual ~device_runtime() = default;
 
-    /// 0 where there is no device, or no driver.
+    /// Devices that kernels are built for; the other calls number them from 0. 0 where there is
+    /// none. \error device_error also where there is no driver, or all devices are too old
     virtual int n_devices() = 0;
     virtual device_description describe(int device) = 0;
 

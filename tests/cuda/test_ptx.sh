@@ -18,7 +18,8 @@ claim() {  # what is claimed, then a command that fails where it does not hold
     shift
     "$@" || { echo "FAILED: $text"; failures=$((failures + 1)); }
 }
-has_none() { ! grep -nE "$1" "$work/unit.ptx" | head -3 | grep .; }
+has_none_in() { ! grep -nE "$2" "$1" | head -3 | grep .; }
+has_none() { has_none_in "$work/unit.ptx" "$1"; }
 claim "there are kernels" grep -q '\.entry' "$work/unit.ptx"
 claim "double precision arithmetic is there" grep -q 'fma\.rn\.f64' "$work/unit.ptx"
 claim "no heap and no printing on the device" has_none '\b(malloc|free|vprintf|__assertfail)\b'
@@ -33,5 +34,6 @@ claim "no function of CUDA's mathematical library" has_none '__nv_|__internal_(t
 # tiles and workspace (host/device/device_pool.hpp) and what is left of 2 GiB for the context and code
 "$(dirname "$nvcc")/ptxas" -arch=sm_90 -v "$work/unit.ptx" -o "$work/unit.cubin" 2>"$work/log"
 stack=$(sed -n 's/^ *\([0-9]*\) bytes stack frame.*/\1/p' "$work/log" | sort -n | tail -1)
+claim "every stack's size is known" has_none_in "$work/log" 'cannot be statically determined'
 claim "the largest stack, $stack bytes, is at most 4000 (1.08 GB on the device)" [ "$stack" -le 4000 ]
 exit $((failures > 0))
