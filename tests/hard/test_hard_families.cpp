@@ -1,8 +1,8 @@
 // Families of starts that go to a limit where the arithmetic is hard: lossless points, grazing,
 // gap edges, folds, elastic impacts, vanishing and infinite mass ratios, stiff springs, high
-// speeds, short thrusts, chatter. Along each, double against 50 digits: the outcome is the same,
-// and the error stays within a few times what one rounding of the start and of every parameter does
-// to the exact map (its derivatives) and one of the result.
+// speeds, short thrusts, chatter. Along each, double and double-double against 50 digits: the
+// outcome is the same, and the error stays within a few times what one rounding of the start and of
+// every parameter does to the exact map (its derivatives) and one of the result.
 #include "analysis/truth/real50.hpp"
 #include "tests/hard/hard_families.hpp"
 
@@ -35,11 +35,19 @@ double parameter_effect(const named_map& map, std::uint32_t returns, std::size_t
     return effect;
 }
 
-/// Largest error of a column over its conditioning bound, some returns from the map's start.
-double conditioned_error(const named_map& map, std::uint32_t returns, const orbit_answer& plain,
-                         const orbit_answer& truth) {
+/// Largest errors of a column over its conditioning bound, in roundings of each arithmetic.
+struct conditioned_errors {
+    double sixteen = 0.0;
+    double thirty_two = 0.0;
+};
+
+/// Of answers some returns from the map's start.
+conditioned_errors errors_of(const named_map& map, std::uint32_t returns, const orbit_answer& plain,
+                             const orbit_answer& wide, const orbit_answer& truth) {
+    constexpr double rounding_of_double = 0x1p-52;
+    constexpr double rounding_of_double_double = lane_traits<double_double<double>>::rounding;
     const std::size_t n = truth.columns.size();
-    double worst = 0.0;
+    conditioned_errors worst;
     for (std::size_t c = 0; c < n; ++c) {
         const real50 value = in_fifty(truth.columns[c]);
         double size = std::abs(to_double(value));
@@ -49,16 +57,20 @@ double conditioned_error(const named_map& map, std::uint32_t returns, const orbi
             size += std::abs(slope * map.start[start]);
         }
         size += parameter_effect(map, returns, c);
-        double error = std::abs(to_double(in_fifty(plain.columns[c]) - value));
+        double turn = 0.0;
         if (map.at.model->turn != nullptr) {
-            const double turn =
+            turn =
                 map.at.model->turn(map.at.section, static_cast<int>(c), map.at.parameters.data());
-            if (turn > 0.0) {
-                error = std::min(error, std::abs(turn - error));
-                size += turn;  // a phase is reduced from a time of that size
-            }
+            if (turn > 0.0) size += turn;  // a phase is reduced from a time of that size
         }
-        worst = std::max(worst, error / (0x1p-52 * size));
+        const auto error = [&](const orbit_answer& answer) {
+            real50 off = abs(in_fifty(answer.columns[c]) - value);
+            if (turn > 0.0 && off > real50(0.5 * turn)) off = abs(real50(turn) - off);
+            return to_double(off);
+        };
+        worst.sixteen = std::max(worst.sixteen, error(plain) / (rounding_of_double * size));
+        worst.thirty_two =
+            std::max(worst.thirty_two, error(wide) / (rounding_of_double_double * size));
     }
     return worst;
 }
@@ -77,17 +89,21 @@ TEST_P(hard_family, keeps_outcome_and_conditioning_bound_up_to_the_limit) {
          distance *= tested.over.ratio) {
         map.value(tested.knob) = limit + tested.to.side * distance;
         const orbit_answer plain = map.answer(returns);
+        const orbit_answer wide = map.answer(returns, digits::thirty_two);
         const orbit_answer truth = map.answer(returns, digits::fifty, true);
         ASSERT_EQ(name_of(plain.end), name_of(truth.end)) << "at distance " << distance;
+        ASSERT_EQ(name_of(wide.end), name_of(truth.end)) << "at distance " << distance;
         ++n_compared;
         if (truth.end != outcome::ok) continue;
         if (!tested.has_chatter) {
             EXPECT_EQ(plain.events, truth.events) << "at distance " << distance;
+            EXPECT_EQ(wide.events, truth.events) << "at distance " << distance;
         }
-        const double error = conditioned_error(map, returns, plain, truth);
-        std::printf("family %s distance %.3e conditioned error %.3g\n", tested.name, distance,
-                    error);
-        EXPECT_LE(error, tested.allowed) << "at distance " << distance;
+        const conditioned_errors errors = errors_of(map, returns, plain, wide, truth);
+        std::printf("family %s distance %.3e conditioned error %.3g double-double %.3g\n",
+                    tested.name, distance, errors.sixteen, errors.thirty_two);
+        EXPECT_LE(errors.sixteen, tested.allowed) << "at distance " << distance;
+        EXPECT_LE(errors.thirty_two, tested.allowed_wide) << "at distance " << distance;
     }
     EXPECT_GT(n_compared, 3) << "the outcome at least";
 }
