@@ -175,13 +175,8 @@ timed_work time_work(const device_work_item& work, backend which, std::size_t n_
 counted_work count_per_unit(const device_work_item& work) {
     request_memory memory;
     const ensemble_request request = work.sample(memory);
-    counted_work counts = count_work(work.model->info->name, work.variant, request);
-    const double units = work.units_of(request);
-    for (double* const count : {&counts.fused, &counts.plain, &counts.divisions,
-                                &counts.square_roots, &counts.roundings}) {
-        *count /= units;
-    }
-    return counts;
+    const counted_work counts = count_work(work.model->info->name, work.variant, request);
+    return counts.per(work.units_of(request));
 }
 
 }  // namespace hopscotch::bench

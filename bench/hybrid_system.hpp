@@ -28,7 +28,7 @@ concept hybrid_system = requires(System system, const System& fixed, typename Sy
     { fixed.starts_above(guard) } -> std::same_as<bool>;  // a guard that is zero at a phase's start
     { fixed.stop_time() } -> std::same_as<double>;        // end of the phase by the clock
     { system.event(guard, t, y) } -> std::same_as<next_phase>;  // guard -1: the stop time
-    fixed.result(y, results);                                   // the section's columns
+    system.result(y, results);                                  // the section's columns
 };
 
 /// One return of a system from section to section.
@@ -36,7 +36,8 @@ struct yardstick_return {
     bool returned = false;
     bool lost = false;  // the solver found no event
     int events = 0;
-    double time = 0.0;
+    double time = 0.0;  // NaN where the system leaves out phases without knowing their time
+    double loss = 0.0;  // of what the return conserves else, where the system books it
     std::array<double, 8> columns{};
 };
 
@@ -58,6 +59,8 @@ yardstick_return one_return(System& system, Solver& solver, const double* column
     result.returned = next == next_phase::returned;
     result.lost = next == next_phase::goes_on;
     if (result.returned) system.result(y, result.columns.data());
+    if constexpr (requires { system.loss; }) result.loss = system.loss;
+    if constexpr (requires { system.skipped_time; }) result.time += system.skipped_time;
     return result;
 }
 

@@ -17,7 +17,7 @@ double accuracy::middle() const { return errors.empty() ? HUGE_VAL : median(erro
 
 known_returns::known_returns(const yardstick_case& what, bool wants_time)
     : wants_time_(wants_time),
-      conserved_(what.conserved_column),
+      invariant_(what.invariant),
       work_(what.model, what.section, what.parameters, what.options, wants_time) {
     work_.set_starts(uniform_rows(8 * n_starts, what.starts));
     if (what.settled_after > 0) work_.settle(what.settled_after);
@@ -42,7 +42,7 @@ known_returns::known_returns(const yardstick_case& what, bool wants_time)
 }
 
 void known_returns::book(accuracy& result, std::size_t i, bool returned, const double* columns,
-                         double time) const {
+                         double time, double loss) const {
     result.n_starts += 1.0;
     if (returned != truth_[i].returns) {
         result.n_wrong += 1.0;
@@ -57,11 +57,13 @@ void known_returns::book(accuracy& result, std::size_t i, bool returned, const d
         worst = std::fmax(worst, difference / std::fmax(std::abs(truth_[i].columns[c]), scale_[c]));
     }
     result.errors.push_back(worst);
-    if (conserved_) {
-        const double before = work_.start(i)[*conserved_];
-        result.drifts.push_back(std::abs(columns[*conserved_] - before) / std::abs(before));
+    if (invariant_) {
+        const double* parameters = work_.parameters().data();
+        const double before = invariant_(work_.start(i), parameters);
+        const double after = invariant_(columns, parameters) + loss;
+        result.drifts.push_back(std::abs(after - before) / std::abs(before));
     }
-    if (wants_time_ && truth_[i].time > 0.0) {
+    if (wants_time_ && truth_[i].time > 0.0 && std::isfinite(time)) {
         result.time_errors.push_back(std::abs(time - truth_[i].time) / truth_[i].time);
     }
 }
@@ -72,7 +74,7 @@ accuracy known_returns::of_kernel(double tolerance) {
     for (std::size_t i = 0; i < n_; ++i) {
         double columns[most_columns];
         for (int c = 0; c < work_.n_columns(); ++c) columns[c] = work_.state(i, c);
-        book(result, i, work_.is_ok(i), columns, work_.time(i));
+        book(result, i, work_.is_ok(i), columns, work_.time(i), work_.loss(i));
     }
     return result;
 }
@@ -81,7 +83,7 @@ accuracy known_returns::of_solver(const yardstick& solver) const {
     accuracy result;
     for (std::size_t i = 0; i < n_; ++i) {
         const yardstick_return got = solver(work_.start(i));
-        book(result, i, got.returned, got.columns.data(), got.time);
+        book(result, i, got.returned, got.columns.data(), got.time, got.loss);
     }
     return result;
 }

@@ -16,7 +16,7 @@ namespace hopscotch::bench {
 struct accuracy {
     std::vector<double> errors;       // relative, largest column, where the outcome is right
     std::vector<double> time_errors;  // of the return's time, relative; where times are wanted
-    std::vector<double> drifts;       // of what is conserved, relative; where something is
+    std::vector<double> drifts;       // of what a return conserves, relative; where it does
     double n_wrong = 0.0;             // outcomes
     double n_starts = 0.0;
 
@@ -54,11 +54,11 @@ private:
     };
 
     /// Largest error of a state, each column over the larger of its true size and its typical one.
-    void book(accuracy& result, std::size_t i, bool returned, const double* columns,
-              double time) const;
+    void book(accuracy& result, std::size_t i, bool returned, const double* columns, double time,
+              double loss) const;
 
     bool wants_time_;
-    std::optional<int> conserved_;
+    std::function<double(const double*, const double*)> invariant_;
     model_returns work_;
     std::size_t n_ = 0;
     std::vector<true_state> truth_;

@@ -56,6 +56,7 @@ void model_returns::set_starts(const std::vector<double>& rows) {
     starts_.assign(row_length(), std::vector<double>(size_));
     states_.assign(row_length(), std::vector<double>(size_));
     times_.assign(size_, 0.0);
+    losses_.assign(size_, 0.0);
     ends_.assign(size_, 0);
     for (std::size_t i = 0; i < size_; ++i) {
         for (std::size_t c = 0; c < row_length(); ++c) starts_[c][i] = rows_[i * row_length() + c];
@@ -67,7 +68,7 @@ int model_returns::variant() const {
     return model_->variant({parameters_.data(), parameters_.data(), options_, wants_time_});
 }
 
-lane_statistics model_returns::compute(backend which, double tolerance, std::uint32_t returns) {
+ensemble_request model_returns::request(double tolerance, std::uint32_t returns) {
     ensemble_request request;
     set_tolerance(request, tolerance);
     request.n_cells = size_;
@@ -82,7 +83,14 @@ lane_statistics model_returns::compute(backend which, double tolerance, std::uin
         request.parameters[p] = {&parameters_[p], 1, 1};
     request.outcome = ends_.data();
     if (wants_time_) request.time = times_.data();
-    return model_->kernel(which, variant())(request);
+    const auto& extras = model_->info->extras;
+    const auto loss = std::ranges::find(extras, "loss", &extra_info::name);
+    if (loss != extras.end()) request.extras[loss - extras.begin()] = losses_.data();
+    return request;
+}
+
+lane_statistics model_returns::compute(backend which, double tolerance, std::uint32_t returns) {
+    return model_->kernel(which, variant())(request(tolerance, returns));
 }
 
 bool model_returns::is_ok(std::size_t i) const {

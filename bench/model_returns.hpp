@@ -33,6 +33,9 @@ public:
     /// A compiled variant other than the one that serves the parameters.
     void use_variant(int compiled) { forced_variant_ = compiled; }
 
+    /// What is computed: states and outcomes after `returns` returns. It points into this.
+    ensemble_request request(double tolerance = 0.0, std::uint32_t returns = 1);
+
     /// What is timed: states and outcomes after `returns` returns.
     /// \param tolerance  of integrated flows; 0: the model's own
     lane_statistics compute(backend which, double tolerance = 0.0, std::uint32_t returns = 1);
@@ -50,6 +53,8 @@ public:
     void keep_returning(std::size_t n);
 
     double time(std::size_t i) const { return times_[i]; }
+    /// The model's extra `loss`; 0 where it has none.
+    double loss(std::size_t i) const { return losses_[i]; }
 
     enum class digits { thirty_two, fifty };
     /// The same return as text, in double-double or 50 digits.
@@ -61,12 +66,14 @@ public:
     /// What a column that wraps repeats after; 0 for others.
     double turn(int column) const;
 
+    /// The compiled variant that serves the parameters, or the one chosen instead.
+    int variant() const;
+
     /// Backends built in and able to run here, fastest first.
     std::vector<backend> backends() const;
 
 private:
     std::size_t row_length() const { return static_cast<std::size_t>(n_columns_); }
-    int variant() const;
 
     const model_entry* model_;
     int section_;
@@ -80,6 +87,7 @@ private:
     std::vector<std::vector<double>> starts_;  // [column][start]
     std::vector<std::vector<double>> states_;  // [column][start]
     std::vector<double> times_;
+    std::vector<double> losses_;
     std::vector<std::uint8_t> ends_;
 };
 

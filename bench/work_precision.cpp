@@ -6,6 +6,7 @@
 // double-double and 50 digits, and the yardsticks of bench/systems/. Errors are measured against 50
 // digits; bench/draw_work_precision.py draws the lines that this prints.
 #include "bench/known_returns.hpp"
+#include "bench/label_curves.hpp"
 #include "bench/report.hpp"
 #include "host/run/backends.hpp"
 
@@ -111,9 +112,14 @@ int main(int argc, char** argv) {
     stay_on_this_core();
     std::vector<yardstick_case>& cases = all_cases();
     std::ranges::sort(cases, {}, &yardstick_case::name);
+    const auto is_wanted = [&](std::string_view name) {
+        const auto begins_so = [&](const char* word) { return name.starts_with(word); };
+        return argc < 2 || std::any_of(argv + 1, argv + argc, begins_so);
+    };
     for (const yardstick_case& one : cases) {
-        const auto is_named = [&](const char* word) { return one.name.starts_with(word); };
-        if (argc > 1 && std::none_of(argv + 1, argv + argc, is_named)) continue;
-        run(one);
+        if (is_wanted(one.name)) run(one);
+    }
+    for (const labelled_scene& one : labelled_scenes()) {
+        if (is_wanted(one.name)) put_label_curves(one);
     }
 }

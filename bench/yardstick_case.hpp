@@ -30,8 +30,9 @@ struct yardstick_case {
     double fixed_tolerance = 0.0;                   // one more comparison, at this tolerance
     bool is_integrated = false;                     // then the kernel too is run at that error
     bool wants_time = false;
-    /// What every return leaves as it is, where there is something; its column.
-    std::optional<int> conserved_column;
+    /// What every return leaves as it is but for the model's extra `loss`, where there is
+    /// something: of a section's columns and the model's parameters.
+    std::function<double(const double* columns, const double* parameters)> invariant{};
 
     struct solver {
         std::string name;

@@ -21,7 +21,10 @@ struct mirror_planar_system {
           target_x(p[4]),
           target_height(p[5]),
           position_gain(p[6]),
-          velocity_gain(p[7]) {}
+          velocity_gain(p[7]),
+          shoulder_radius(p[8]),
+          bar_length(p[9]),
+          floor_height(p[10]) {}
 
     next_phase start(const double* columns, state& y) {
         y = {columns[0], columns[1], columns[2], 0.0};
@@ -31,7 +34,8 @@ struct mirror_planar_system {
         angle = std::atan2(regulation, columns[0]);
         descends = true;
         const bool above = std::atan2(y[1], y[0]) > angle;
-        return above && gain > -1.0 ? next_phase::goes_on : next_phase::ended;
+        return columns[0] > shoulder_radius && above && gain > -1.0 ? next_phase::goes_on
+                                                                    : next_phase::ended;
     }
     void rates(double, const double* y, double* rate) const {
         rate[0] = y[2];
@@ -46,9 +50,15 @@ struct mirror_planar_system {
     bool starts_above(int) const { return true; }
     double stop_time() const { return unbounded_time; }
     next_phase event(int, double, state& y) {
-        if (!descends) return next_phase::returned;
+        if (!descends) {
+            return y[0] > shoulder_radius ? next_phase::returned : next_phase::ended;
+        }
         descends = false;
         const double reach = std::hypot(y[0], y[1]);
+        // x and z fall or rise all the way to the contact
+        if (y[0] <= shoulder_radius || y[1] < floor_height || reach > bar_length) {
+            return next_phase::ended;
+        }
         const double turning = (y[0] * y[3] - y[1] * y[2]) / reach;
         const double push = (1.0 + restitution) * (1.0 + gain) * turning;
         y[2] += push * std::sin(angle);
@@ -60,7 +70,7 @@ struct mirror_planar_system {
     }
 
     double restitution, gravity, gain_offset, energy_gain, target_x, target_height, position_gain,
-        velocity_gain;
+        velocity_gain, shoulder_radius, bar_length, floor_height;
     double gain = 0.0, angle = 0.0;
     bool descends = true;
 };

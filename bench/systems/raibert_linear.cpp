@@ -21,6 +21,7 @@ struct raibert_linear_system {
           thrust_time(p[3]),
           friction(p[4]),
           gravity(p[5]),
+          flight_gravity(p[6]),
           leg_factor(1.0 + p[7]),
           rest_height(p[8]),
           thrust_gravity(std::isnan(p[9]) ? p[5] : p[9]) {}
@@ -53,10 +54,14 @@ struct raibert_linear_system {
         mode = stance::extension;
         return next_phase::goes_on;
     }
-    void result(const state& y, double* columns) const { columns[0] = y[1] / leg_factor; }
+    void result(const state& y, double* columns) {
+        columns[0] = y[1] / leg_factor;
+        skipped_time = 2.0 * columns[0] / flight_gravity;
+    }
 
-    double height, stiffness, thrust, thrust_time, friction, gravity, leg_factor, rest_height,
-        thrust_gravity;
+    double skipped_time = 0.0;  // of the flight
+    double height, stiffness, thrust, thrust_time, friction, gravity, flight_gravity, leg_factor,
+        rest_height, thrust_gravity;
     stance mode = stance::compression;
     double thrust_ends = 0.0;
 };

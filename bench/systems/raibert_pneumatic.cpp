@@ -20,6 +20,7 @@ struct raibert_pneumatic_system {
           thrust_time(p[3]),
           friction(p[4]),
           gravity(p[5]),
+          flight_gravity(p[6]),
           leg_factor(1.0 + p[7]) {}
 
     next_phase start(const double* columns, state& y) {
@@ -46,7 +47,10 @@ struct raibert_pneumatic_system {
         spring = thrust * y[0];
         return next_phase::goes_on;
     }
-    void result(const state& y, double* columns) const { columns[0] = y[1] / leg_factor; }
+    void result(const state& y, double* columns) {
+        columns[0] = y[1] / leg_factor;
+        skipped_time = thrust_time + 2.0 * columns[0] / flight_gravity;
+    }
 
     /// The thrust, from rest at the bottom.
     void push(state& y) const {
@@ -57,7 +61,8 @@ struct raibert_pneumatic_system {
         y = {y[0] + (thrust - gravity) * e2, (thrust - gravity) * e1};
     }
 
-    double height, stiffness, thrust, thrust_time, friction, gravity, leg_factor;
+    double height, stiffness, thrust, thrust_time, friction, gravity, flight_gravity, leg_factor;
+    double skipped_time = 0.0;  // of thrust and flight
     double spring = 0.0;
     bool is_extending = false;
 };
