@@ -69,7 +69,7 @@ hard::tally around_boundaries(const hard::boundary_case& which, const scene& who
     for (int i = 0; found.cells < n_wanted && n_empty < 50; ++i, ++n_empty) {
         const scene line =
             hard::line_through(whole, hard::place_of_line(i), static_cast<std::size_t>(i));
-        const label_plan plan = line.question.has_labels ? plan_labels(line) : label_plan{};
+        const label_plan plan = plan_labels(line);
         const kernel_choice kernel = kernel_of(line, "auto");
         for (const double at : hard::changes_on(line, plan, kernel, which.n_cells, 30)) {
             n_empty = 0;
@@ -91,7 +91,7 @@ hard::tally around_boundaries(const hard::boundary_case& which, const scene& who
 }
 
 hard::tally on_the_grid(const hard::boundary_case& which, const scene& whole, double seconds) {
-    const label_plan plan = whole.question.has_labels ? plan_labels(whole) : label_plan{};
+    const label_plan plan = plan_labels(whole);
     const kernel_choice kernel = kernel_of(whole, "auto");
     const stopwatch time(seconds);
     hard::tally found;

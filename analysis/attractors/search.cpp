@@ -98,7 +98,8 @@ private:
     void choose_free() {
         constexpr std::size_t most = 16;
         const std::size_t n = std::min(n_open(), most);
-        const std::vector<int> conserved = conserved_everywhere(map_, state(open_).first(n * n_));
+        const std::vector<int> conserved =
+            conserved_everywhere(map_, state(open_).first(n * n_)).value_or(std::vector<int>{});
         for (int c = 0; c < static_cast<int>(n_); ++c) {
             if (std::find(conserved.begin(), conserved.end(), c) == conserved.end())
                 free_.push_back(c);
@@ -349,7 +350,8 @@ bool found_attractor::operator<(const found_attractor& other) const {
     return points < other.points;
 }
 
-std::vector<int> conserved_everywhere(const map_point& map, std::span<const double> states) {
+std::optional<std::vector<int>> conserved_everywhere(const map_point& map,
+                                                     std::span<const double> states) {
     const auto n = static_cast<std::size_t>(map.n_columns());
     std::optional<std::vector<int>> conserved;
     for (std::size_t i = 0; i + n <= states.size() && n > 1; i += n) {
@@ -361,7 +363,7 @@ std::vector<int> conserved_everywhere(const map_point& map, std::span<const doub
             return std::find(here.begin(), here.end(), column) == here.end();
         });
     }
-    return conserved.value_or(std::vector<int>{});
+    return conserved;
 }
 
 attractor_search search_attractors(const map_point& map, int section,

@@ -10,6 +10,7 @@
 #include "kernels/ensemble/request.hpp"
 
 #include <complex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,8 +52,9 @@ struct attractor_search {
 
 /// Columns that the return map conserves at every state given whose return is completed: they are
 /// parameters of the motion, not attracted to anything. Rising; the complement are the free
-/// columns.
-std::vector<int> conserved_everywhere(const map_point& map, std::span<const double> states);
+/// columns. Nothing where no return is completed.
+std::optional<std::vector<int>> conserved_everywhere(const map_point& map,
+                                                     std::span<const double> states);
 
 /// \param section  where the starts lie (its returns end on map.section)
 /// \param starts   [start][column]

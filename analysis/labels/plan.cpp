@@ -8,6 +8,7 @@
 #include "analysis/labels/plan_points.hpp"
 #include "analysis/labels/point_search.hpp"
 #include "analysis/labels/searched_plan.hpp"
+#include "host/run/requests.hpp"
 #include "host/scene/grid.hpp"
 
 #include <fmt/format.h>
@@ -219,7 +220,9 @@ std::vector<std::size_t> parameter_axes(const scene& scene) {
 }
 
 label_plan plan_labels(const scene& scene, std::span<const std::uint64_t> searched) {
-    if (!scene.question.has_labels) return {};
+    label_plan plan;
+    if (is_chaos_map(scene)) plan.conserved = conserved_in(scene);
+    if (!scene.question.has_labels) return plan;
     const parameter_extremes extremes = extremes_of(scene);
     const variant_query query{extremes.lowest.data(), extremes.highest.data(), scene.options.data(),
                               true};
@@ -229,7 +232,7 @@ label_plan plan_labels(const scene& scene, std::span<const std::uint64_t> search
         const bool is_by_period = scene.question.kind == "period" && !axes_of_points(scene).empty();
         return is_by_period ? plan_by_period(scene) : plan_by_search(scene, searched);
     }
-    label_plan plan = is_certain ? plan_by_certificate(scene) : plan_by_intervals(scene);
+    plan = is_certain ? plan_by_certificate(scene) : plan_by_intervals(scene);
     if (scene.question.kind == "one_sided" && scene.model->branch) {
         add_immediate_basins(scene, plan);
     }

@@ -10,7 +10,8 @@
 
 namespace hopscotch {
 
-/// The plan of a scene's labels. Independent of grid order, threads and backend.
+/// The plan of a scene's labels, or for exponents the columns that returns conserve; else an empty
+/// one. Independent of grid order, threads and backend.
 ///
 /// \param searched  cells (rising) from which to search once more, because a first pass has left
 ///                  them without a label; only plans by search look at them

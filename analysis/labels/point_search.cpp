@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 
 namespace hopscotch {
 
@@ -30,14 +32,27 @@ std::vector<double> scale_of(const map_point& map, int section, std::span<const 
     return scale;
 }
 
+std::vector<int> conserved_in(const scene& scene) {
+    const bool is_direct = &scene.start_section() == &scene.end_section();
+    if (!is_direct) return {};
+    const plan_points points(scene, parameter_axes(scene));
+    constexpr std::size_t n_samples = 64;
+    std::optional<std::vector<int>> conserved;
+    for (const std::size_t point : std::set{std::size_t{0}, points.size() / 2, points.size() - 1}) {
+        const auto here =
+            conserved_everywhere(points.map_at(point), points.starts_at(point, n_samples));
+        if (!here) continue;
+        if (!conserved) conserved = here;
+        std::erase_if(*conserved, [&](int column) {
+            return std::find(here->begin(), here->end(), column) == here->end();
+        });
+    }
+    return conserved.value_or(std::vector<int>{});
+}
+
 std::vector<std::size_t> axes_of_points(const scene& scene) {
     std::vector<std::size_t> axes = parameter_axes(scene);
-    const bool is_direct = &scene.start_section() == &scene.end_section();
-    if (!is_direct) return axes;
-    const plan_points points(scene, axes);
-    constexpr std::size_t n_samples = 64;
-    const std::vector<int> conserved =
-        conserved_everywhere(points.map_at(0), points.starts_at(0, n_samples));
+    const std::vector<int> conserved = conserved_in(scene);
     for (std::size_t axis = 0; axis < scene.axes.size(); ++axis) {
         const bool is_conserved = scene.axes[axis].kind == axis_kind::column &&
                                   std::find(conserved.begin(), conserved.end(),

@@ -12,6 +12,11 @@
 
 namespace hopscotch {
 
+/// Columns of the section that returns end on which the return map conserves, at starts sampled
+/// from the scene's first, middle and last parameter point (rising). None where the scene starts on
+/// another section.
+std::vector<int> conserved_in(const scene& scene);
+
 /// Axes over which attractors change (rising): parameters, and columns that the return map
 /// conserves.
 std::vector<std::size_t> axes_of_points(const scene& scene);

@@ -29,7 +29,7 @@ public:
         for (std::size_t c = 0; c < row_.columns.size(); ++c) {
             columns[c] = number(parse_real<double_double<double>>(row_.columns[c]));
         }
-        space::seed(columns, true);
+        space::seed(columns, wanted_, true);
         for (std::size_t p = 0; p < row_.parameters.size(); ++p) {
             parameters_[p] = number(parse_real<double_double<double>>(row_.parameters[p]));
         }
@@ -74,11 +74,12 @@ private:
         double squares[N];
         number columns[most_columns];
         space::read(lane_, end_section_, columns);
+        space::keep_free(columns, wanted_);
         space::orthogonalise(columns, true, estimate_.doublings, squares);
         estimate_.until_boundary -= 1.0;
         const bool is_boundary = estimate_.until_boundary == 0.0;
         if (is_boundary && estimate_.has_begun == 0.0 && has_vanished(squares)) {
-            space::seed(columns, true);
+            space::seed(columns, wanted_, true);
             for (int k = 0; k < N; ++k) squares[k] = 1.0, estimate_.doublings[k] = 0.0;
         }
         typename space::lane begun;

@@ -101,8 +101,8 @@ void print_events(const scene& scene, const owned_row& row, const replay_argumen
 }
 
 /// The motion once more in double-double, with all exponents.
-int replay_motion(const scene& scene, const orbit_row& row, int stored) {
-    const exponent_answer answer = run_exponents(scene, row);
+int replay_motion(const scene& scene, const label_plan& plan, const orbit_row& row, int stored) {
+    const exponent_answer answer = run_exponents(scene, plan, row);
     const std::span exponents(answer.exponents, scene.end_section().columns.size());
     fmt::print("{:<8} {}  outcome {}, {} returns, exponents {:.17g}, standard error {:.17g}\n",
                "dd", motion_names[static_cast<std::size_t>(answer.motion)], name_of(answer.end),
@@ -129,7 +129,7 @@ int replay(const replay_arguments& given) {
     const std::string layer(judged_layer(scene));
     const int stored = stored_value(map, layer, coordinates);
     fmt::print("{:<8} {}\n", "stored", value_name(scene, plan, stored));
-    if (is_chaos_map(scene)) return replay_motion(scene, row.row, stored);
+    if (is_chaos_map(scene)) return replay_motion(scene, plan, row.row, stored);
     int best = stored;
     for (const precision value : {precision::binary64, precision::dd, precision::mp50}) {
         const orbit_answer answer =

@@ -85,10 +85,11 @@ std::vector<stored_cell> stored_cells(const scene& scene, std::span<const layer_
 
 /// The motion in double-double. There is no third opinion: orbits of thousands of returns in 50
 /// digits are out of reach.
-judged_cell judge_motion(const scene& scene, const orbit_row& row, std::uint64_t cell,
-                         const stored_cell& stored, std::span<const layer_plan> numeric) {
+judged_cell judge_motion(const scene& scene, const label_plan& plan, const orbit_row& row,
+                         std::uint64_t cell, const stored_cell& stored,
+                         std::span<const layer_plan> numeric) {
     constexpr int undecided = static_cast<int>(motion::undecided);
-    const exponent_answer answer = run_exponents(scene, row);
+    const exponent_answer answer = run_exponents(scene, plan, row);
     const int computed = static_cast<int>(answer.motion);
     const bool is_open = stored.verdict == undecided || computed == undecided;
     return {{cell, stored.verdict, is_open ? stored.verdict : computed},
@@ -100,7 +101,7 @@ judged_cell judge_cell(const scene& scene, const label_plan& plan, std::uint64_t
     const std::vector<std::uint64_t> coordinates = coordinates_of(scene, cell);
     if (plan.of_cell) return judge_cell(scene, plan.of_cell(coordinates), cell, stored, numeric);
     const owned_row row = row_of(scene, plan, coordinates);
-    if (is_chaos_map(scene)) return judge_motion(scene, row.row, cell, stored, numeric);
+    if (is_chaos_map(scene)) return judge_motion(scene, plan, row.row, cell, stored, numeric);
     judged_cell judged{{cell, stored.verdict, 0}, {cell, stored.numbers, {}}};
     orbit_answer answer;
     for (const precision value : {precision::dd, precision::mp50}) {

@@ -122,7 +122,7 @@ run_estimate estimate(const scene& scene, const run_choices& choices, const run_
     result.memory = tokens * tile_cells * (2 * bytes_per_cell + sizeof(double));
 
     label_plan plan;
-    if (hooks.plan && scene.question.has_labels) plan = hooks.plan(scene, {});
+    if (hooks.plan && has_plan(scene)) plan = hooks.plan(scene, {});
     const sample_timing timing = time_samples(scene, plan, kernel);
     const auto sampled = static_cast<double>(timing.cells);
     const auto n_cells = static_cast<double>(scene.n_cells());

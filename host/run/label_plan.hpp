@@ -32,7 +32,7 @@ struct label_plan {
     std::vector<std::size_t> point_axes;
     int n_traps = 0;  // per parameter point
     std::vector<trap_interval>
-        traps;             // [parameter point][n_traps], points in C order over point_axes
+        traps;  // [parameter point][n_traps], points in C order over point_axes
     int n_ellipsoids = 0;  // per parameter point
     std::vector<trap_ellipsoid> ellipsoids;  // [parameter point][n_ellipsoids]
     std::vector<chaotic_set> chaotic;        // by rising parameter point
@@ -44,6 +44,10 @@ struct label_plan {
     /// For the question one_sided: [parameter point][n_immediate], the immediate one-sided basins.
     int n_immediate = 0;
     std::vector<trap_interval> immediate;
+
+    /// For Lyapunov exponents: columns (rising) of the section that returns end on which every
+    /// return conserves.
+    std::vector<int> conserved;
 
     std::vector<attractor_row> unstable;     // periodic orbits met by the search, label 0
     std::vector<attractor_row> attractors;   // shares are filled in after the run

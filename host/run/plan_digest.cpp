@@ -68,6 +68,7 @@ std::string plan_digest(const label_plan& plan) {
     all.add(plan.chaotic);
     all.add(plan.n_immediate);
     all.add(plan.immediate);
+    all.add(plan.conserved);
     all.add(plan.attractors);
     return fmt::format("{:016x}", all.word());
 }

@@ -20,7 +20,7 @@ ensemble_request common_request(const scene& scene, const label_plan& plan) {
     }
     std::copy(scene.options.begin(), scene.options.end(), request.options);
     request.max_returns = most_returns_of(scene);
-    if (is_chaos_map(scene)) request.exponents = exponents_of(scene);
+    if (is_chaos_map(scene)) request.exponents = exponents_of(scene, plan);
     request.max_steps = static_cast<double>(scene.accuracy.max_events);
     request.tolerance = scene.accuracy.tolerance;
     request.decided_by = plan.decided_by;
@@ -39,6 +39,20 @@ column_source& source_of(ensemble_request& request, const scene_axis& axis) {
 
 kernel_kind kind_of(const scene& scene) {
     return is_chaos_map(scene) ? kernel_kind::tangent : kernel_kind::plain;
+}
+
+/// Directions of free columns first, see exponent_request.
+void order_directions(exponent_request& request, std::span<const int> conserved, int n_columns) {
+    if (conserved.empty()) return;
+    int next = 0;
+    for (const bool wanted : {false, true}) {
+        for (int c = 0; c < n_columns; ++c) {
+            const bool is_conserved =
+                std::find(conserved.begin(), conserved.end(), c) != conserved.end();
+            if (is_conserved == wanted) request.direction[c] = next++;
+        }
+    }
+    request.n_free = n_columns - static_cast<int>(conserved.size());
 }
 
 /// One entry per run of neighbouring cells with the same parameter point.
@@ -87,12 +101,14 @@ kernel_in_use map_kernel_of(const scene& scene, std::string_view wanted_backend)
 
 bool is_chaos_map(const scene& scene) { return scene.question.kind == "lyapunov"; }
 
+bool has_plan(const scene& scene) { return scene.question.has_labels || is_chaos_map(scene); }
+
 std::uint32_t most_returns_of(const scene& scene) {
     const auto transient = static_cast<std::uint32_t>(scene.question.number("transient"));
     return scene.question.returns + transient;
 }
 
-exponent_request exponents_of(const scene& scene) {
+exponent_request exponents_of(const scene& scene, const label_plan& plan) {
     const scene_question& question = scene.question;
     const auto whole = [&](std::string_view name) {
         return static_cast<std::uint32_t>(question.number(name));
@@ -103,6 +119,7 @@ exponent_request exponents_of(const scene& scene) {
     request.least_blocks = whole("min_blocks");
     request.error = question.number("error");
     request.significance = question.number("significance");
+    order_directions(request, plan.conserved, static_cast<int>(scene.end_section().columns.size()));
     return request;
 }
 

@@ -33,11 +33,15 @@ kernel_in_use map_kernel_of(const scene& scene, std::string_view wanted_backend)
 /// Does the scene ask for Lyapunov exponents?
 bool is_chaos_map(const scene& scene);
 
+/// Is a plan made before the map: for labels, or for what exponents have to know.
+bool has_plan(const scene& scene);
+
 /// Returns that an orbit of the map runs for, a transient included.
 std::uint32_t most_returns_of(const scene& scene);
 
-/// How the scene's Lyapunov exponents are estimated; results are not set.
-exponent_request exponents_of(const scene& scene);
+/// How the scene's Lyapunov exponents are estimated, those at fixed conserved columns first;
+/// results are not set.
+exponent_request exponents_of(const scene& scene, const label_plan& plan);
 
 /// The cells of one tile, in C order within the box. Results are not set.
 cell_request request_of(const scene& scene, const label_plan& plan, const map_layout& layout,

@@ -43,6 +43,15 @@ attribute_list refinement_attributes(const scene& scene, const run_report& repor
             {"refine_saved_share", fmt::format("{:.17g}", saved)}};
 }
 
+std::string conserved_names(const scene& scene, const label_plan& plan) {
+    std::string names;
+    for (const int column : plan.conserved) {
+        if (!names.empty()) names += ' ';
+        names += scene.end_section().columns[static_cast<std::size_t>(column)].name;
+    }
+    return names;
+}
+
 void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hooks, map_run& run,
                 run_report& report) {
     if (scene.question.has_labels) report.labels = run.counts("label");
@@ -72,6 +81,9 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
         attributes.emplace_back("device_failure", report.device_failure);
     }
     if (!plan.searched.empty()) attributes.emplace_back(searched_cells, text_of(plan.searched));
+    if (!plan.conserved.empty()) {
+        attributes.emplace_back("conserved_columns", conserved_names(scene, plan));
+    }
     if (report.gain.n_labelled > 0) attributes.emplace_back("trap_gain", text_of(report.gain));
     run.finish({attributes, report.attractors, plan.point_columns});
     report.is_finished = true;
@@ -183,7 +195,7 @@ private:
     }
 
     void make_plan() {
-        if (!hooks_.plan || !scene_.question.has_labels) return;
+        if (!hooks_.plan || !has_plan(scene_)) return;
         ranks_.together([&] { plan_ = hooks_.plan(scene_, searched_); });
         require_one_plan();
     }
@@ -415,7 +427,7 @@ void help_with_map(const scene& scene, const run_choices& choices, const run_hoo
     const std::vector<std::uint64_t> missing = run.missing_tiles();
     const std::vector<std::uint64_t> searched = cells_of(run.kept(searched_cells));
     label_plan plan;
-    if (hooks.plan && scene.question.has_labels) {
+    if (hooks.plan && has_plan(scene)) {
         plan = hooks.plan(scene, searched);
         if (run.kept(kept_plan_of(searched)) != plan_digest(plan)) {
             throw device_error(choices.file.string() +

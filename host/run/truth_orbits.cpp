@@ -102,8 +102,8 @@ const orbit_functions& orbits_of(const model_entry& model) {
 
 }  // namespace
 
-exponent_answer run_exponents(const scene& scene, const orbit_row& row) {
-    return orbits_of(*scene.model).exponents(row, exponents_of(scene));
+exponent_answer run_exponents(const scene& scene, const label_plan& plan, const orbit_row& row) {
+    return orbits_of(*scene.model).exponents(row, exponents_of(scene, plan));
 }
 
 orbit_answer run_orbit(const model_entry& model, precision value, const orbit_row& row) {

@@ -50,6 +50,6 @@ orbit_answer run_orbit(const model_entry& model, precision value, const orbit_ro
 
 /// Lyapunov exponents of one cell of a chaos map, in double-double.
 /// \error std::invalid_argument where the model is built without single orbits
-exponent_answer run_exponents(const scene& scene, const orbit_row& row);
+exponent_answer run_exponents(const scene& scene, const label_plan& plan, const orbit_row& row);
 
 }  // namespace hopscotch

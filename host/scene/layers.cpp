@@ -59,7 +59,8 @@ void add_exponents(const scene& scene, std::vector<layer_plan>& layers) {
                           "what the largest Lyapunov exponent says", -1.0));
     layers.back().description.flags = flags_of(motion_names);
     layers.push_back(plan(layer_role::exponent, "lyapunov", number, "1",
-                          "largest Lyapunov exponent, per return", nan));
+                          "largest Lyapunov exponent (at fixed conserved columns), per return",
+                          nan));
     const int n_columns = static_cast<int>(scene.end_section().columns.size());
     for (int k = 1; k < n_columns; ++k) {
         const std::string place = std::to_string(k + 1);

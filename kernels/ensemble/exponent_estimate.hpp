@@ -62,7 +62,7 @@ private:
 template <class Real, int N>
 struct exponent_result {
     Real exponents[N];  // per return
-    Real rate;          // the largest one per unit of time
+    Real rate;          // the first one per unit of time
     Real standard_error;
     Real returns;
     Real motion;
@@ -162,6 +162,7 @@ struct exponent_estimate {
             result.exponents[k] = select(any_block & is_number(mean), mean, nan);
         }
         for (int k = 0; k < N; ++k) {
+            if (k > 0 && k >= wanted.n_free) continue;
             result.exponents[k] = select(vanished, -infinity<Real>(), result.exponents[k]);
         }
         const Real largest = result.exponents[0];

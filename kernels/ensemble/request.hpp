@@ -51,9 +51,16 @@ struct exponent_request {
     double error = 0.0;               // standard error at which it stops early; 0: never
     double significance = 3.0;        // standard errors from zero that decide the motion
 
-    double* exponents[most_columns] = {};  // per return, largest first
-    double* rate = nullptr;                // the largest per unit of time
-    double* standard_error = nullptr;      // of the largest per return
+    /// Directions of the columns that returns end on. Where returns conserve columns (a runner's
+    /// speed), the first n_free directions are those of the others: they are kept among themselves,
+    /// so that the first exponents are those of the motion at fixed conserved columns; the last
+    /// ones, of the conserved columns, are zero. See tangent_space::keep_free.
+    int direction[most_columns] = {0, 1, 2, 3, 4, 5, 6, 7};
+    int n_free = most_columns;
+
+    double* exponents[most_columns] = {};  // per return, largest first, conserved columns' last
+    double* rate = nullptr;                // the first per unit of time
+    double* standard_error = nullptr;      // of the first per return
     std::uint32_t* returns = nullptr;      // that the estimate rests on
     std::uint8_t* motion = nullptr;        // see contract/motion.hpp
 };

@@ -74,7 +74,7 @@ private:
     static constexpr std::uint64_t steps_in_range = 8;
     std::uint64_t n_steps_ = 0;
 
-    /// Direction c starts along column c. A section that only starts orbits may have more columns
+    /// Every column starts a direction. A section that only starts orbits may have more columns
     /// than directions: they take turns.
     HOPSCOTCH_DEVICE void begin(state& at, const std::uint64_t* cells, const Real* columns,
                                 const Real* parameters, const Real& is_cell) {
@@ -83,7 +83,7 @@ private:
         for (int c = 0; c < most_columns; ++c) {
             numbers[c] = number(request_.columns[c].values != nullptr ? columns[c] : zero);
         }
-        space::seed(numbers, zero == zero);
+        space::seed(numbers, request_.exponents, zero == zero);
         for (std::size_t p = 0; p < std::size(at.parameters); ++p) at.parameters[p] = parameters[p];
         at.returns = at.steps = zero;
         at.busy = is_cell;
@@ -180,6 +180,7 @@ private:
         Real sizes[n];
         number columns[most_columns];
         space::read(at.motion, request_.end_section, columns);
+        space::keep_free(columns, request_.exponents);
         space::orthogonalise(columns, returned, at.estimate.doublings, sizes);
         const mask_of<Real> first = boundary & !(at.estimate.has_begun > Real(0.0));
         if (any(first)) sow(at, first & has_vanished(sizes), columns, sizes);
@@ -203,7 +204,7 @@ private:
     /// New directions along the columns.
     HOPSCOTCH_DEVICE void sow(state& at, const mask_of<Real>& where,
                               number (&columns)[most_columns], Real (&sizes)[n]) const {
-        space::seed(columns, where);
+        space::seed(columns, request_.exponents, where);
         for (int k = 0; k < n; ++k) {
             sizes[k] = select(where, Real(1.0), sizes[k]);
             at.estimate.doublings[k] = select(where, Real(0.0), at.estimate.doublings[k]);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernels/contract/info.hpp"
+#include "kernels/ensemble/request.hpp"
 #include "kernels/lanes/dual.hpp"
 
 #include <type_traits>
@@ -49,11 +50,25 @@ public:
         Model::read_state(at, section, columns);
     }
 
-    /// Direction c along column c, at the values that the columns have.
-    HOPSCOTCH_DEVICE static void seed(number (&columns)[most_columns], const mask_of<Real>& where) {
+    /// Every column's direction along it, at the values that the columns have.
+    HOPSCOTCH_DEVICE static void seed(number (&columns)[most_columns],
+                                      const exponent_request& wanted, const mask_of<Real>& where) {
         for (int c = 0; c < most_columns; ++c) {
-            const number along = number::variable(columns[c].value, c % N);
+            const number along = number::variable(columns[c].value, wanted.direction[c] % N);
             columns[c] = select(where, along, columns[c]);
+        }
+    }
+
+    /// Takes out of the directions of free columns what they have along conserved ones. It is none
+    /// but for rounding (a conserved column does not change with any other); left in, it would not
+    /// shrink with a direction that contracts, and soon be all that is left of it.
+    HOPSCOTCH_DEVICE static void keep_free(number (&columns)[most_columns],
+                                           const exponent_request& wanted) {
+        for (int c = 0; c < N; ++c) {
+            if (wanted.direction[c] < wanted.n_free) continue;
+            for (int k = 0; k < N; ++k) {
+                if (k < wanted.n_free) columns[c].slope[k] = T(0.0);
+            }
         }
     }
 

@@ -78,7 +78,7 @@ TEST_P(device_scenes, have_the_layers_of_the_scalar_backend_whatever_the_tiles) 
                                              std::string("grid.axis.1.cells=") + of.cells[1],
                                              std::string("output.tile=") + of.tile, of.setting};
     const scene scene = read_scene(folder + of.name + ".toml", overrides);
-    const label_plan plan = scene.question.has_labels ? plan_labels(scene, {}) : label_plan{};
+    const label_plan plan = plan_labels(scene);
     ASSERT_EQ(plan.decided_by, of.decided_by);
     const model_entry& model = emulated(scene.info().name);
     const map_layout layout = layout_of(scene);

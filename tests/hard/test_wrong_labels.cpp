@@ -23,7 +23,7 @@ tally look_around(const boundary_case& which, int n_lines, std::size_t most_chan
     tally found;
     for (int i = 0; i < n_lines && found.cells < n_wanted; ++i) {
         const scene line = hard::line_through(whole, hard::place_of_line(i));
-        const label_plan plan = line.question.has_labels ? plan_labels(line) : label_plan{};
+        const label_plan plan = plan_labels(line);
         const kernel_choice kernel = kernel_of(line, "auto");
         for (const double at : hard::changes_on(line, plan, kernel, which.n_cells, most_changes)) {
             const auto complain = [&](std::size_t cell, const cell_verdict& verdict) {
@@ -61,7 +61,7 @@ TEST_P(around_the_boundaries, flags_are_those_of_a_second_look_at_every_cell_of_
     boundary_case small = GetParam();
     small.overrides = overrides;
     const scene map = hard::scene_of(small, HOPSCOTCH_SOURCE);
-    const label_plan plan = map.question.has_labels ? plan_labels(map) : label_plan{};
+    const label_plan plan = plan_labels(map);
     const kernel_choice kernel = kernel_of(map, "auto");
     const std::vector<std::uint64_t> cells = hard::all_cells_of(map);
     EXPECT_EQ(certainty_of(map, plan, kernel.run, cells),

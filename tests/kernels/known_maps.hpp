@@ -134,6 +134,17 @@ struct henon_map {
         return Real(0.0);
     }
 };
+/// p y + q x, with x conserved but for rounding: exponents ln p and 0.
+struct conserving_map {
+    static constexpr std::size_t n_columns = 2;
+    template <class Real>
+    static Real apply(Real* x, const Real* p) {
+        const Real sum = x[0] + x[1];
+        x[0] = sqrt(sum * sum - x[1] * (x[0] + sum));
+        x[1] = p[0] * x[1] + p[1] * x[0];
+        return Real(0.0);
+    }
+};
 /// y grows by p for the first 1000 iterates, then shrinks to y q + 1: a chaotic transient's
 /// tangent.
 struct late_map {

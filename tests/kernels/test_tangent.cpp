@@ -176,6 +176,36 @@ TEST(tangent_ensemble, henon_map_has_its_published_exponent_and_its_determinant)
     }
 }
 
+TEST(tangent_ensemble, motion_at_a_fixed_conserved_column_has_its_own_exponent_first) {
+    exponent_run run;
+    for (const double p : {0.5, -0.9}) run.add(0.7, 0.1, p, 1.0);
+    run.add(0.7, 0.1, 0.0, 0.0);
+    run.wanted.direction[0] = 1;
+    run.wanted.direction[1] = 0;
+    run.wanted.n_free = 1;
+    run.compute<conserving_map>();
+    for (std::size_t i = 0; i < 2; ++i) {
+        // logarithms of 1e4 derivatives that are p but for a few roundings each
+        EXPECT_NEAR(run.largest[i], std::log(std::abs(run.p[i])), 1e-15);
+        EXPECT_NEAR(run.second[i], 0.0, 1e-15);
+        EXPECT_EQ(run.motion_of(i), motion::periodic);
+    }
+    EXPECT_EQ(run.largest[2], -inf);
+    EXPECT_NEAR(run.second[2], 0.0, 1e-15);
+    EXPECT_EQ(run.motion_of(2), motion::periodic);
+
+    // in the order of the columns the conserved one comes first, and hides the motion
+    run.wanted = {.transient = 100, .block = 100};
+    run.compute<conserving_map>();
+    EXPECT_NEAR(run.largest[0], 0.0, 1e-15);
+    EXPECT_EQ(run.motion_of(0), motion::undecided);
+    // rounding leaks into it where directions are only begun among the free columns
+    run.wanted.direction[0] = 1;
+    run.wanted.direction[1] = 0;
+    run.compute<conserving_map>();
+    EXPECT_GT(run.largest[0], 0.5 * std::log(0.5));
+}
+
 TEST(tangent_ensemble, a_superstable_orbit_has_exponent_minus_infinity) {
     exponent_run run;
     run.add(0.5, 0.0, 2.0, 0.0);

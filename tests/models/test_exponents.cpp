@@ -1,14 +1,11 @@
 // Lyapunov exponents of single models against closed forms and their pages.
-#include "analysis/orbit/orbit_functions.hpp"
-#include "host/run/estimate.hpp"
+#include "analysis/labels/plan.hpp"
 #include "host/run/requests.hpp"
+#include "host/run/truth_orbits.hpp"
 #include "host/scene/grid.hpp"
 #include "tests/models/exponent_cells.hpp"
 
 #include <gtest/gtest.h>
-#include <Eigen/Dense>
-#include <bit>
-#include <filesystem>
 
 #include <algorithm>
 #include <cmath>
@@ -207,28 +204,64 @@ TEST(exponents_of_a_runner, are_positive_below_the_gap_on_a_linear_spring) {
     }
 }
 
-TEST(exponents_of_a_runner, leave_a_stable_gait_undecided_because_its_speed_is_neutral) {
-    exponent_cells cells{
-        "slip",
-        "touchdown",
-        {{1.6}, {0.35}},
-        {{"leg_length", 0.173}, {"stiffness", 0.01839}, {"touchdown_angle", 0.961}},
-        {1, 1}};
-    cells.compute();
-    EXPECT_EQ(cells.end_of(0), outcome::ok);
-    const int options[] = {1, 1};
-    const double parameters[] = {1.0, 0.173, 0.01839, 9.81, 0.961};
-    double start[] = {1.6, 0.35};
-    jet_query query{.section = 0, .options = options, .columns = start, .parameters = parameters};
-    query.variant = find_model("slip")->variant({parameters, parameters, options});
-    query.returns = 5000;
-    start[1] = find_model("slip")->orbits().jet(query).state[1];
-    query.returns = 1;
-    const double multiplier = std::abs(find_model("slip")->orbits().jet(query).derivative[1][1]);
-    EXPECT_NEAR(cells.exponents[0][0], 0.0, 1e-6);
-    // ln |lambda2| of the gait, from the derivative of the map at the settled angle
-    EXPECT_NEAR(cells.exponents[1][0], std::log(multiplier), 1e-9);
-    EXPECT_EQ(cells.motion_of(0), motion::undecided);
+/// Directions of a runner's touchdown: the angle's first, because its speed is conserved.
+exponent_request at_fixed_speed() {
+    exponent_request wanted;
+    wanted.direction[0] = 1;
+    wanted.direction[1] = 0;
+    wanted.n_free = 1;
+    return wanted;
+}
+
+TEST(exponents_of_a_runner, at_fixed_speed_are_the_multipliers_of_its_stable_gaits) {
+    // page, section 11: lambda2 of Fig. 4's gaits, with 4 decimals; v 45, 35, 15, 8
+    const double stiffness[] = {2000.0, 1000.0, 250.0, 100.0};
+    const double betas[] = {0.95, 0.95, 1.0, 1.0};
+    const double speeds[] = {45.0, 35.0, 15.0, 8.0};
+    const double angles[] = {0.231712, 0.164726, 0.151585, 0.141161};
+    const double multipliers[] = {0.2261, -0.0536, -0.1283, -0.2884};
+    for (std::size_t i = 0; i < 4; ++i) {
+        exponent_cells cells{
+            "slip",
+            "touchdown",
+            {{speeds[i]}, {angles[i]}},
+            {{"leg_length", 1.5}, {"stiffness", stiffness[i]}, {"touchdown_angle", betas[i]}},
+            {0, 1},
+            at_fixed_speed()};
+        cells.compute();
+        const double multiplier = std::abs(multipliers[i]);
+        EXPECT_NEAR(cells.exponents[0][0], std::log(multiplier), 6e-5 / multiplier);
+        // the map from speed to speed is the identity; 1e4 roundings of it
+        EXPECT_NEAR(cells.exponents[1][0], 0.0, 1e-12);
+        EXPECT_EQ(cells.motion_of(0), motion::periodic);
+    }
+}
+
+TEST(exponents_of_a_runner, are_those_of_its_angle_in_a_scene_and_in_twice_the_digits) {
+    const std::vector<std::string> small{"grid.axis.0.cells=40", "question.transient=1000",
+                                         "question.returns=4000"};
+    const scene scene =
+        read_scene(HOPSCOTCH_SOURCE "/configs/scenes/ghigliazza2005_fig12_lyapunov.toml", small);
+    const label_plan plan = plan_labels(scene);
+    EXPECT_EQ(plan.conserved, std::vector<int>{0});
+    // page, section 11: v_SN 1.512797, period doublings at 1.657765, 1.705457, 1.710989
+    const std::uint64_t cell = 10;  // of fixed points
+    cell_request request = request_of(scene, plan, std::vector<std::uint64_t>{cell});
+    double exponents[2] = {};
+    std::uint8_t found = 0;
+    request.request.exponents.exponents[0] = &exponents[0];
+    request.request.exponents.exponents[1] = &exponents[1];
+    request.request.exponents.motion = &found;
+    kernel_of(scene, "auto").run(request.request);
+    EXPECT_EQ(static_cast<motion>(found), motion::periodic);
+
+    const owned_row row = row_of(scene, plan, coordinates_of(scene, cell));
+    const exponent_answer answer = run_exponents(scene, plan, row.row);
+    EXPECT_EQ(answer.motion, motion::periodic);
+    // rounding of one return in double
+    EXPECT_NEAR(exponents[0], answer.exponents[0], 1e-12);
+    EXPECT_NEAR(answer.exponents[1], 0.0, 1e-28);
+    EXPECT_LT(answer.exponents[0], -0.1);
 }
 
 }  // namespace

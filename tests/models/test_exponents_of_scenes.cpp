@@ -1,5 +1,6 @@
 // Lyapunov exponents of a scene of every model: their sum is the determinant's logarithm, and all
 // backends give the same bits.
+#include "analysis/labels/plan.hpp"
 #include "analysis/orbit/orbit_functions.hpp"
 #include "host/run/estimate.hpp"
 #include "host/run/requests.hpp"
@@ -86,7 +87,7 @@ TEST(exponents_of_every_scene, add_up_to_the_determinant_of_the_return_map) {
     for (const scene& scene : every_scene(short_run)) {
         const std::size_t n_columns = scene.end_section().columns.size();
         const std::vector<std::uint64_t> chosen = sample_cells(scene.n_cells(), 40, 5);
-        cell_request cells = request_of(scene, {}, chosen);
+        cell_request cells = request_of(scene, plan_labels(scene), chosen);
         std::vector<std::vector<double>> exponents(n_columns, std::vector<double>(chosen.size()));
         for (std::size_t k = 0; k < n_columns; ++k) {
             cells.request.exponents.exponents[k] = exponents[k].data();
@@ -157,7 +158,7 @@ TEST(exponents_of_every_scene, have_the_same_bits_on_every_backend) {
     std::size_t n_numbers = 0;
     for (const scene& scene : every_scene(as_chaos_map)) {
         const std::vector<std::uint64_t> chosen = sample_cells(scene.n_cells(), 60, 3);
-        cell_request cells = request_of(scene, {}, chosen);
+        cell_request cells = request_of(scene, plan_labels(scene), chosen);
         const exponent_layers reference(cells, kernel_of(scene, "scalar"));
         for (const double x : reference.numbers) n_numbers += std::isfinite(x) && x != 0.0 ? 1 : 0;
         ++n_scenes;

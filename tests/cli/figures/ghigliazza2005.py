@@ -106,10 +106,9 @@ def road_to_chaos():
     holds("bands before the gap", (n_states[chaotic] > 16).mean() > 0.5)
     holds("beyond the gap's opening runners fall", numpy.isnan(angle[speed > 1.7160]).any(axis=1))
 
-    # (2.24) at the gait; the angle's exponent is the sum, since the speed's is 0
+    # (2.24) at the gait
     run("run", "ghigliazza2005_fig12_lyapunov", no_audit, "grid.axis.0.cells=200", "question.transient=1000")
-    speed, first, second = layers("ghigliazza2005_fig12_lyapunov", "speed", "lyapunov", "lyapunov_2")
-    exponent = first + second
+    speed, exponent, of_speed, motion = layers("ghigliazza2005_fig12_lyapunov", "speed", "lyapunov", "lyapunov_2", "motion")
     expected = []
     calm = (speed > 1.53) & (speed < 1.65)
     for v in speed[calm]:
@@ -120,6 +119,8 @@ def road_to_chaos():
         by_alpha = 2 * (stiffness * c / q ** 3 * math.atan(c / q) - s * s / q ** 2)
         expected.append(math.log(abs(1 + (1 + gravity * math.cos(0.961) / math.tan(angle)) * by_alpha)))
     near("exponents of gaits are their multiplier's", exponent[calm], expected, 1e-6)
+    near("exponents of the conserved speed are 0", of_speed[calm], 0.0, 1e-12)
+    holds("gaits are periodic motions", motion[calm] == 1)
     holds("positive before the gap only", exponent[(speed < 1.7122) & (speed > 1.53)] < 1e-3)
     chaotic = (speed > 1.7127) & (speed < 1.71545)
     holds("chaos from 1.7124 on", (exponent[chaotic] > 0.03).mean() > 0.6)
