@@ -55,12 +55,18 @@ public:
         return is_attracted;
     }
 
-    /// |P^p(x* + d u) - x*| in the scale; NaN where the orbit fails.
-    double image_distance(double d) const {
-        const settled_orbits next = settle(map_, map_.section, starts(std::span(&d, 1)),
-                                           static_cast<std::uint32_t>(of_.period));
-        if (next.end_of(0) != outcome::ok) return std::nan("");
-        return distance_of(map_, next.state_of(0), of_.point, of_.scale);
+    /// |P^p(x) - x*| and |P^p(x) - x| in the scale, x = x* + d u; NaN where the orbit fails.
+    struct moved {
+        double from_point = std::nan("");
+        double from_start = std::nan("");
+    };
+    moved image(double d) const {
+        const std::vector<double> start = starts(std::span(&d, 1));
+        const settled_orbits next =
+            settle(map_, map_.section, start, static_cast<std::uint32_t>(of_.period));
+        if (next.end_of(0) != outcome::ok) return {};
+        return {distance_of(map_, next.state_of(0), of_.point, of_.scale),
+                distance_of(map_, next.state_of(0), start, of_.scale)};
     }
 
     double last_attracted(double inside, double outside) const {
@@ -118,10 +124,17 @@ stability_sector walked(const map_point& map, const sector_question& of,
     }
     constexpr double close = 1e-6;
     constexpr double far = 1e-5;
-    const double close_image = walk.image_distance(close);
-    const double far_image = walk.image_distance(far);
-    sector.exponent = std::log(far_image / close_image) / std::log(far / close);
-    sector.coefficient = close_image / std::pow(close, sector.exponent);
+    const ray_walk::moved near = walk.image(close);
+    const ray_walk::moved further = walk.image(far);
+    sector.exponent = std::log(further.from_point / near.from_point) / std::log(far / close);
+    sector.coefficient = near.from_point / std::pow(close, sector.exponent);
+    sector.step_exponent = std::log(further.from_start / near.from_start) / std::log(far / close);
+    sector.step_coefficient = near.from_start / std::pow(close, sector.step_exponent);
+    const bool stays =
+        near.from_start <= neutral_step * close && further.from_start <= neutral_step * far;
+    sector.kind = sector.attracts ? side_kind::attracting
+                  : stays         ? side_kind::neutral
+                                  : side_kind::repelling;
     return sector;
 }
 

@@ -2,6 +2,7 @@
 // points, does it attract next to it, by which law, and how far does the immediate basin reach?
 #pragma once
 
+#include "analysis/attractors/side_kind.hpp"
 #include "analysis/periodic/map_point.hpp"
 #include "kernels/ensemble/request.hpp"
 
@@ -16,6 +17,9 @@ struct stability_sector {
     bool attracts = false;          // every start tried next to the point tends to the orbit
     double coefficient = 0.0;       // |P^p(x* + d u) - x*| ~ coefficient d^exponent next to the
     double exponent = 0.0;          // point, in the scale
+    double step_coefficient = 0.0;  // the same of |P^p(x) - x|, x = x* + d u
+    double step_exponent = 0.0;
+    side_kind kind = side_kind::repelling;
     double extent = 0.0;     // distance at which starts first cease to tend to it, in the scale;
                              // to 1e-12 of it, as far as starts were looked at in between
     bool is_bounded = true;  // false: no end found within the farthest distance looked at

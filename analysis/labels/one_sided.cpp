@@ -13,13 +13,27 @@ namespace hopscotch {
 namespace {
 
 /// The law |P(x) - x| ~ C d^p next to the point, on the side of `direction`.
-stability_side law_of(const return_map_samples& map, double point, double direction) {
+stability_side law_of(const return_map_samples& map, double point, double direction,
+                      std::uint32_t period = 1) {
     constexpr double near = 1e-6;
     constexpr double far = 1e-5;
-    const double step_near = map.at(point + direction * near) - (point + direction * near);
-    const double step_far = map.at(point + direction * far) - (point + direction * far);
+    const auto step = [&](double distance) {
+        const double x = point + direction * distance;
+        return map.at(x, period) - x;
+    };
+    const double step_near = step(near);
+    const double step_far = step(far);
     stability_side side;
-    side.attracts = step_near * direction < 0.0 && step_far * direction < 0.0;
+    // inward, and beyond the point by no more than the distance: a multiplier between -1 and 1
+    const auto comes_nearer = [&](double moved, double distance) {
+        return moved * direction < 0.0 && std::abs(moved) < 2.0 * distance;
+    };
+    side.attracts = comes_nearer(step_near, near) && comes_nearer(step_far, far);
+    const bool stays =
+        std::abs(step_near) <= neutral_step * near && std::abs(step_far) <= neutral_step * far;
+    side.kind = stays           ? side_kind::neutral
+                : side.attracts ? side_kind::attracting
+                                : side_kind::repelling;
     side.exponent = std::log(step_far / step_near) / std::log(far / near);
     side.coefficient = std::abs(step_near) / std::pow(near, side.exponent);
     return side;
@@ -48,6 +62,25 @@ one_sided_stability one_sided(const return_map_samples& map, const map_branch& b
     if (result.left.attracts) {
         result.left.extent = branch.base - last_of_interval(branch.base, floor, stays(-1.0));
     }
+    return result;
+}
+
+one_sided_stability one_sided_of_cycle(const return_map_samples& map, double point, int period,
+                                       const trap_interval& trap) {
+    const auto returns = static_cast<std::uint32_t>(period);
+    one_sided_stability result{point, law_of(map, point, -1.0, returns),
+                               law_of(map, point, 1.0, returns)};
+    if (period == 1) {
+        result.left.extent = point - trap.lowest;
+        result.right.extent = trap.highest - point;
+        return result;
+    }
+    constexpr std::uint32_t settling = 200;  // visits
+    const auto tends = [&](double x) {
+        return std::abs(map.at(x, settling * returns) - point) < 1e-6 * std::abs(point);
+    };
+    result.left.extent = point - last_of_interval(point, trap.lowest, tends);
+    result.right.extent = last_of_interval(point, trap.highest, tends) - point;
     return result;
 }
 

@@ -3,6 +3,7 @@
 // models/passive_hopper.md section 4.
 #pragma once
 
+#include "analysis/attractors/side_kind.hpp"
 #include "analysis/labels/return_map_samples.hpp"
 #include "host/run/label_plan.hpp"
 #include "kernels/contract/info.hpp"
@@ -13,6 +14,7 @@ namespace hopscotch {
 /// d^exponent.
 struct stability_side {
     bool attracts = false;
+    side_kind kind = side_kind::repelling;
     double coefficient = 0.0;
     double exponent = 0.0;
     double extent =
@@ -33,6 +35,12 @@ struct one_sided_stability {
 ///               a fit at distances 1e-6 and 1e-5
 one_sided_stability one_sided(const return_map_samples& map, const map_branch& branch,
                               double floor);
+
+/// Both sides of a point of a hyperbolic cycle that a trap interval holds: |P^p(x) - x| next to it;
+/// of a fixed point the extents are the trap's, of a longer cycle as far as starts tend to its
+/// point.
+one_sided_stability one_sided_of_cycle(const return_map_samples& map, double point, int period,
+                                       const trap_interval& trap);
 
 /// Both sides of an attractor that is the base of a branch.
 struct sided_attractor {

@@ -185,8 +185,12 @@ label_plan plan_by_intervals(const scene& scene) {
             const auto kind = std::find_if(
                 kinds.begin(), kinds.end(),
                 [&](const found_trap& other) { return other.rank() == found[i][j].rank(); });
-            plan.traps[i * most + j] = {found[i][j].trap.lowest, found[i][j].trap.highest,
-                                        static_cast<std::int32_t>(kind - kinds.begin()) + 1};
+            const interval_trap& trap = found[i][j].trap;
+            const auto label = static_cast<std::int16_t>(kind - kinds.begin() + 1);
+            plan.traps[i * most + j] = {trap.lowest, trap.highest, label};
+            if (trap.kind == attractor_kind::fixed_point || trap.kind == attractor_kind::cycle) {
+                plan.placed.push_back({i, label, trap.points});
+            }
         }
     }
     return plan;

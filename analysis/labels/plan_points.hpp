@@ -32,9 +32,10 @@ public:
     /// The point that a cell belongs to.
     std::size_t point_of(std::span<const std::uint64_t> coordinates) const;
 
-private:
+    /// Where a point lies along all axes of the scene; 0 along those that make no points.
     std::vector<std::uint64_t> coordinates_of_point(std::size_t point) const;
 
+private:
     const scene& scene_;
     std::vector<std::size_t> axes_;
     std::size_t n_points_ = 1;

@@ -34,6 +34,18 @@ attractor_points points_of(const map_reader& map, const analysis_wish& wish) {
     return points;
 }
 
+/// The table's points are those of one slice.
+std::vector<critical_shock> shocks_in_slices_only(const map_reader& map) {
+    std::vector<critical_shock> shocks;
+    for (const attractor_row& row : map.attractors()) {
+        critical_shock& shock = shocks.emplace_back();
+        shock.label = row.label;
+        shock.name = row.name;
+        shock.why = "attractors change along an axis: told slice by slice";
+    }
+    return shocks;
+}
+
 }  // namespace
 
 map_analysis analyse_map(const map_reader& map, const analysis_wish& wish) {
@@ -53,7 +65,11 @@ map_analysis analyse_map(const map_reader& map, const analysis_wish& wish) {
     result.wada = wada_of(grid);
     result.falls_in_axis_units = distances_to_falls(grid, length_unit::axis_units);
     result.falls_in_cells = distances_to_falls(grid, length_unit::cells);
-    if (result.layer == "label") result.shocks = critical_shocks(grid, points_of(map, wish));
+    if (result.layer != "label") return result;
+    result.shocks_of_slices = critical_shocks_of_slices(grid, wish.slices);
+    result.shocks = result.shocks_of_slices.slices.empty()
+                        ? critical_shocks(grid, points_of(map, wish))
+                        : shocks_in_slices_only(map);
     return result;
 }
 

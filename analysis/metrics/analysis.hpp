@@ -9,6 +9,7 @@
 #include "analysis/metrics/fall_distance.hpp"
 #include "analysis/metrics/read_classes.hpp"
 #include "analysis/metrics/shares.hpp"
+#include "analysis/metrics/slice_shocks.hpp"
 #include "analysis/metrics/wada.hpp"
 
 #include <map>
@@ -23,6 +24,7 @@ struct analysis_wish {
     std::uint64_t box = 0;  // cells along a side of the entropy's boxes; 0: `default_box`
     std::map<std::string, std::pair<double, double>> reference_box;  // axis name -> range
     std::map<std::string, double> plane;  // values of the state columns that are no axis
+    slice_choice slices;  // where attractors change along axes: which, and those of each slice
 };
 
 struct map_analysis {
@@ -39,7 +41,8 @@ struct map_analysis {
     fall_distances falls_in_axis_units;
     fall_distances falls_in_cells;
     std::vector<critical_shock> shocks;  // one per row of the attractor table
-    std::vector<std::string> problems;   // tiles that could not be read
+    shocks_over_parameters shocks_of_slices;
+    std::vector<std::string> problems;  // tiles that could not be read
 };
 
 /// \error store_error as `read_classes`, for an entropy box that does not fit, for a reference box

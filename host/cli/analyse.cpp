@@ -1,15 +1,20 @@
 // hopscotch analyse FILE.h5: basin shares, boundaries and their dimension, distances; as a table
 // and as JSON.
+#include "analysis/labels/plan.hpp"
+#include "analysis/labels/point_search.hpp"
+#include "analysis/labels/slice_attractors.hpp"
 #include "host/cli/analysis_report.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/sweep_point.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/cli/usage_error.hpp"
 #include "host/run/attributes.hpp"
+#include "host/run/open_cells.hpp"
 
 #include <charconv>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -51,19 +56,27 @@ std::pair<std::string, std::pair<double, double>> range_in(const std::string& te
         fmt::format("--reference-box {} (not an axis and a range); AXIS=LOW:HIGH?", text));
 }
 
-/// Where the map's plane lies in the state columns that are no axis; nothing where this program
-/// does not know the map's model.
-std::map<std::string, double> plane_of(const map_reader& map) try {
-    const scene scene = scene_of(map, all_models());
+/// The map's scene; none where this program does not know its model.
+std::optional<scene> known_scene_of(const map_reader& map) try {
+    return scene_of(map, all_models());
+} catch (const scene_error&) {
+    return {};
+} catch (const store_error&) {
+    return {};
+}
+
+/// Where the map's plane lies in the state columns that are no axis.
+std::map<std::string, double> plane_of(const scene& scene) {
     std::map<std::string, double> plane;
     for (std::size_t i = 0; i < scene.start.size(); ++i) {
         plane[std::string(scene.start_section().columns[i].name)] = scene.start[i];
     }
     return plane;
-} catch (const scene_error&) {
-    return {};
-} catch (const store_error&) {
-    return {};
+}
+
+/// Are there axes over which attractors change, and others?
+bool is_over_parameters(const scene& scene, const std::vector<std::size_t>& axes) {
+    return scene.question.has_labels && !axes.empty() && axes.size() < scene.axes.size();
 }
 
 int analyse(const analyse_arguments& given) {
@@ -72,7 +85,16 @@ int analyse(const analyse_arguments& given) {
     wish.box = given.box;
     for (const std::string& text : given.reference_box) wish.reference_box.insert(range_in(text));
     const map_reader map(given.file);
-    wish.plane = plane_of(map);
+    const std::optional<scene> scene = known_scene_of(map);
+    label_plan plan;
+    if (scene) {
+        wish.plane = plane_of(*scene);
+        const std::vector<std::size_t> axes = axes_of_points(*scene);
+        if (is_over_parameters(*scene, axes)) {
+            plan = plan_labels(*scene, cells_of(map.attribute(searched_cells)));
+            wish.slices = slices_of(*scene, plan, axes, wish.plane);
+        }
+    }
     const metrics::map_analysis result = metrics::analyse_map(map, wish);
     const wada_tolerance tolerance{given.wada_tolerance};
     const std::string name = std::filesystem::path(given.file).filename().string();

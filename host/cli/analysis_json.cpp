@@ -173,6 +173,22 @@ std::string shock_json(const metrics::class_grid& grid, const metrics::critical_
         .str();
 }
 
+/// Every attractor of every slice: a flat list, as data frames want it.
+std::string slices_json(const metrics::class_grid& grid,
+                        const metrics::shocks_over_parameters& over) {
+    std::vector<std::string> rows;
+    for (const metrics::slice_shocks& slice : over.slices) {
+        for (const metrics::critical_shock& shock : slice.shocks) {
+            json_object row;
+            for (std::size_t i = 0; i < over.axes.size(); ++i) {
+                row.number(over.axes[i].name, slice.at[i]);
+            }
+            rows.push_back(row.add("shock", shock_json(grid, shock)).str());
+        }
+    }
+    return json_array(rows, [](const std::string& row) { return row; });
+}
+
 std::string entropy_json(const metrics::basin_entropy& entropy) {
     return json_object()
         .count("box", entropy.box)
@@ -250,6 +266,7 @@ std::string analysis_json(const metrics::map_analysis& result, wada_tolerance to
     add("critical_shocks", json_array(result.shocks, [&](const metrics::critical_shock& shock) {
             return shock_json(grid, shock);
         }));
+    add("critical_shocks_over_parameters", slices_json(grid, result.shocks_of_slices));
     add("problems", json_texts(result.problems));
     return text + fmt::format("  \"estimators\": {}\n}}\n", estimators_json());
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -155,7 +156,41 @@ std::string shock_text(const metrics::nearest_other& near) {
     return text;
 }
 
+/// Over the slices of fixed parameters: where the smallest and the largest shock are.
+std::string slices_table(const map_analysis& result) {
+    const metrics::shocks_over_parameters& over = result.shocks_of_slices;
+    struct sized {
+        double distance;
+        const metrics::slice_shocks* slice;
+    };
+    std::map<std::pair<int, std::string>, std::vector<sized>> by_label;
+    for (const metrics::slice_shocks& slice : over.slices) {
+        for (const metrics::critical_shock& shock : slice.shocks) {
+            by_label[{shock.label, shock.name}].push_back({shock.in_axis_units.distance, &slice});
+        }
+    }
+    const auto told = [&](const sized& each) {
+        std::string text = number(each.distance) + " at";
+        for (std::size_t i = 0; i < over.axes.size(); ++i) {
+            text += fmt::format(" {} = {}", over.axes[i].name, number(each.slice->at[i]));
+        }
+        return text;
+    };
+    table rows{{"label", "name", "slices", "smallest", "median", "largest"}};
+    for (auto& [key, shocks] : by_label) {
+        std::sort(shocks.begin(), shocks.end(),
+                  [](const sized& a, const sized& b) { return a.distance < b.distance; });
+        rows.push_back({fmt::format("{}", key.first), key.second,
+                        fmt::format("{} of {}", shocks.size(), over.slices.size()),
+                        told(shocks.front()), number(shocks[shocks.size() / 2].distance),
+                        told(shocks.back())});
+    }
+    return "\nminimal critical shock, slice by slice (all are in the JSON)\n" +
+           (rows.size() > 1 ? aligned(rows) : "  no attractor has a point in its slice\n");
+}
+
 std::string shock_table(const map_analysis& result) {
+    if (!result.shocks_of_slices.slices.empty()) return slices_table(result);
     if (result.shocks.empty()) return "";
     table rows{{"label", "name", "shock", "in cells", "nearest cell", "extents (left / right)"}};
     std::string reasons;

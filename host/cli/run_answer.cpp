@@ -6,6 +6,7 @@
 #include "analysis/render/render.hpp"
 #include "host/cli/companion.hpp"
 #include "host/cli/shard_argument.hpp"
+#include "host/cli/side_files.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/run/audit.hpp"
 #include "host/run/exit_code.hpp"
@@ -37,6 +38,7 @@ int finish(const scene& scene, const run_report& report) {
     put_text(summary.string(), json_of(scene, report));
     fmt::print("summary          {}\n", summary.string());
     write_picture(report);
+    if (scene.question.kind == "one_sided") fmt::print("{}", write_sides(report.file));
     return exit_done;
 }
 

@@ -22,6 +22,13 @@ struct chaotic_set {
     state_cover cover;
 };
 
+/// Where an attractor lies at one parameter point, if its trap there does not tell.
+struct placed_attractor {
+    std::size_t point = 0;  // parameter point
+    std::int16_t label = 0;
+    std::vector<double> points;  // [period][column]
+};
+
 struct label_plan {
     decision decided_by = decision::returns;
     std::int16_t died_label = 0;  // of orbits that end by `stuck` or `rest`
@@ -33,7 +40,8 @@ struct label_plan {
     int n_traps = 0;  // per parameter point
     std::vector<trap_interval>
         traps;  // [parameter point][n_traps], points in C order over point_axes
-    int n_ellipsoids = 0;  // per parameter point
+    std::vector<placed_attractor> placed;    // of the intervals, by rising parameter point
+    int n_ellipsoids = 0;                    // per parameter point
     std::vector<trap_ellipsoid> ellipsoids;  // [parameter point][n_ellipsoids]
     std::vector<chaotic_set> chaotic;        // by rising parameter point
 

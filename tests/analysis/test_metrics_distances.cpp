@@ -1,5 +1,6 @@
 // Exact distances on even and uneven axes, distances to failing cells, and minimal critical shocks.
 #include "analysis/metrics/critical_shock.hpp"
+#include "analysis/metrics/slice_shocks.hpp"
 #include "analysis/metrics/distance.hpp"
 #include "analysis/metrics/fall_distance.hpp"
 #include "tests/analysis/metric_maps.hpp"
@@ -187,6 +188,32 @@ TEST(metrics_critical_shock, is_the_shortest_of_all_points_of_a_cycle) {
     EXPECT_EQ(shock.n_in_map, 2U) << "the third one lies outside the map";
     EXPECT_NEAR(shock.in_axis_units.distance, 0.105, 1e-12);
     EXPECT_EQ(shock.point, (std::vector<double>{0.6, 0.505}));
+}
+
+TEST(metrics_critical_shock, of_a_slice_is_that_of_the_attractor_of_its_parameter) {
+    // fixed point at p, its basin up to 0.5 + p / 2, in slices of p along the first axis
+    const class_grid grid =
+        metric_map({metric_axis("p", 0.0, 0.8, 20), metric_axis("x", -1.0, 2.0, 3000)}, 2,
+                   [](const std::vector<double>& at) { return at[1] < 0.5 + at[0] / 2.0 ? 1 : 2; });
+    metrics::slice_choice choice;
+    choice.axes = {"q", "p"};
+    choice.attractors = [&](std::span<const std::uint64_t> at) {
+        EXPECT_EQ(at[0], 0U) << "no axis of the map";
+        metrics::attractor_points points = points_at({grid.axes[0].values[at[1]]});
+        points.columns = {"x"};
+        return points;
+    };
+    const auto over = metrics::critical_shocks_of_slices(grid, choice);
+    ASSERT_EQ(over.axes.size(), 1U);
+    ASSERT_EQ(over.slices.size(), 20U);
+    for (const metrics::slice_shocks& slice : over.slices) {
+        const double p = slice.at[0];
+        const double distance = slice.shocks.at(0).in_axis_units.distance;
+        EXPECT_GE(distance, 0.5 - p / 2.0 - 1e-12);
+        EXPECT_LE(distance, 0.5 - p / 2.0 + 1e-3 + 1e-12) << "to a cell's centre";
+    }
+    choice.axes = {"p", "x"};
+    EXPECT_TRUE(metrics::critical_shocks_of_slices(grid, choice).slices.empty());
 }
 
 TEST(metrics_critical_shock, says_where_the_maps_edge_is_nearer_than_any_other_basin) {

@@ -9,6 +9,7 @@ number_in() {  # FILE PYTHON-EXPRESSION over the JSON document d
 
 small_map -o map.h5 >out.txt 2>&1 || fail "a map is computed" "$(cat out.txt)"
 claim_exit "a map is analysed" 0 hopscotch analyse map.h5
+claim_contains "over parameters shocks are told slice by slice" "slice by slice" out.txt
 claim_contains "the basins are named" "fixed point 1" out.txt
 claim_contains "the table holds the whole map's metrics" "uncertainty exponent" out.txt
 claim_contains "it says in which unit lengths are" "mass_ratio in ln(value)" out.txt
@@ -20,8 +21,13 @@ claim_equal "shares sum to 1" "True" \
 run_cells=$(number_in map.json '[row["cells"] for row in d["labels"] if row["value"] > 0]')
 claim_equal "basins have the cells that run counted" "$run_cells" \
     "$(number_in map_analysis.json '[c["share"]["cells"] for c in d["classes"] if c["label"]]')"
-claim_equal "a parameter map has no critical shock" "[False]" \
+claim_equal "over a parameter there is no critical shock of the whole map" "[False]" \
     "$(number_in map_analysis.json 'list({s["defined"] for s in d["critical_shocks"]})')"
+# alpha*_1 = 4.4934 attracts from above only: the first start below it belongs to another basin
+claim_equal "but one in every slice" "True" "$(number_in map_analysis.json \
+    '{r["mass_ratio"] for r in d["critical_shocks_over_parameters"]}.__len__() == 90')"
+claim_equal "next to lossless hops, which attract from above only" "True" "$(number_in map_analysis.json \
+    'all(r["shock"]["in_cells"]["distance"] <= 1 for r in d["critical_shocks_over_parameters"])')"
 
 claim_exit "JSON goes to standard output alone" 0 hopscotch analyse map.h5 -o -
 cp out.txt stdout.json
