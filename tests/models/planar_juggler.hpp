@@ -2,6 +2,7 @@
 // digits. What the tests of its page (models/mirror_juggler.md, section 4) share.
 #pragma once
 
+#include "tests/models/mirror_juggler.hpp"
 #include "tests/models/model_orbits.hpp"
 #include "kernels/models/mirror_planar.hpp"
 
@@ -9,20 +10,14 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 namespace hopscotch::testing_models::planar_juggler {
 
-/// Denormal numbers included, which std::stod refuses.
-inline double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+using namespace mirror_juggler;
 
 inline const orbit_functions& table() { return testing_models::orbits_of<mirror_planar>(); }
-
-using runner = orbit_answer (*)(const orbit_row&);
-
-enum law { original, solvable, level };
 
 /// Parameters as decimals, so that 1/7 and its kin can be given to all digits.
 struct juggler {
@@ -51,16 +46,7 @@ struct juggler {
 template <class Call>
 auto with_row(const juggler& j, const std::vector<std::string>& columns, std::uint32_t returns,
               bool derivative, const Call& call) {
-    const std::vector<std::string> parameters = j.texts();
-    const int options[] = {j.law, j.energy};
-    orbit_row row;
-    row.options = options;
-    row.variant = j.law;
-    row.columns = columns;
-    row.parameters = parameters;
-    row.returns = returns;
-    row.derivative = derivative;
-    return call(row);
+    return with_texts(j.law, j.energy, columns, j.texts(), returns, derivative, call);
 }
 
 using state = std::array<double, 3>;

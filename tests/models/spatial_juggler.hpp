@@ -2,6 +2,7 @@
 // (models/mirror_juggler.md, section 5) share.
 #pragma once
 
+#include "tests/models/mirror_juggler.hpp"
 #include "tests/models/model_orbits.hpp"
 #include "kernels/models/mirror_planar.hpp"
 #include "kernels/models/mirror_spatial.hpp"
@@ -10,21 +11,16 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 namespace hopscotch::testing_models::spatial_juggler {
 
-inline double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+using namespace mirror_juggler;
 
 inline const orbit_functions& table() { return testing_models::orbits_of<mirror_spatial>(); }
 
-using runner = orbit_answer (*)(const orbit_row&);
-
 using state = std::array<double, 5>;
-
-enum law { original, solvable, level };
 
 struct juggler {
     int law = solvable;
@@ -54,16 +50,7 @@ std::vector<std::string> written(const Numbers& numbers) {
 
 inline orbit_answer run_texts(const juggler& j, const std::vector<std::string>& columns,
                               std::uint32_t returns, bool derivative, runner how) {
-    const std::vector<std::string> parameters = written(j.numbers());
-    const int options[] = {j.law, j.energy};
-    orbit_row row;
-    row.options = options;
-    row.variant = j.law;
-    row.columns = columns;
-    row.parameters = parameters;
-    row.returns = returns;
-    row.derivative = derivative;
-    return how(row);
+    return with_texts(j.law, j.energy, columns, written(j.numbers()), returns, derivative, how);
 }
 
 inline orbit_answer run(const juggler& j, const state& x, std::uint32_t returns = 1,
