@@ -22,7 +22,7 @@ struct orbit_side {
     side_kind kind = side_kind::repelling;
     double coefficient = 0.0;  // |P^p(x) - x| ~ coefficient d^exponent at distance d
     double exponent = 0.0;
-    double extent = 0.0;     // of the immediate basin
+    double extent = 0.0;     // of the immediate basin: the connected part of the basin
     bool is_bounded = true;  // false: it reaches as far as was looked, or to the domain's edge
     double share = std::numeric_limits<double>::quiet_NaN();  // of the slice's decided starts: on
     double share_error = std::numeric_limits<double>::quiet_NaN();  // this side, and in the basin

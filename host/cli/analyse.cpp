@@ -5,6 +5,7 @@
 #include "analysis/labels/slice_attractors.hpp"
 #include "host/cli/analysis_report.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/side_files.hpp"
 #include "host/cli/sweep_point.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/cli/usage_error.hpp"
@@ -103,7 +104,11 @@ int analyse(const analyse_arguments& given) {
     // JSON on standard output stands alone, so that it can be read by another program
     if (file != "-") fmt::print("{}: {}", name, analysis_text(result, tolerance));
     put_text(file, analysis_json(result, tolerance, name));
-    if (file != "-") fmt::print("{}\n", file);
+    if (file == "-") return exit_done;
+    fmt::print("{}\n", file);
+    // maps that were merged, or are one of a sweep, have had none yet
+    const bool has_sides = scene && scene->question.kind == "one_sided" && map.is_finished_map();
+    if (has_sides) fmt::print("{}", write_sides(given.file));
     return exit_done;
 }
 

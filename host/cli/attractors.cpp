@@ -118,9 +118,10 @@ std::string sided_table(const scene& scene, const std::vector<sided_row>& rows) 
 
 std::string side_json(const stability_side& side) {
     return fmt::format(
-        "{{\"attracts\": {}, \"coefficient\": {:.17g}, \"exponent\": {:.17g}, \"extent\": "
-        "{:.17g}}}",
-        side.attracts, side.coefficient, side.exponent, side.extent);
+        "{{\"attracts\": {}, \"kind\": {}, \"coefficient\": {:.17g}, \"exponent\": {:.17g}, "
+        "\"extent\": {:.17g}}}",
+        side.attracts, json_text(side_kind_names[static_cast<std::size_t>(side.kind)]),
+        side.coefficient, side.exponent, side.extent);
 }
 
 std::string rows_json(const std::vector<attractor_row>& rows, const basin_sample& sample) {

@@ -115,7 +115,7 @@ std::vector<layer_plan> available_layers(const scene& scene) {
         layers.push_back(plan(layer_role::period, "period", number_type::int16, "1",
                               "period of that attractor in returns (0 = aperiodic or none)", -1.0));
     }
-    if (scene.question.kind == "one_sided") {
+    if (scene.question.kind == "one_sided" && scene.model->branch) {  // intervals of one column
         layers.push_back(
             plan(layer_role::immediate, "immediate", number_type::int16, "1",
                  "attractor in whose immediate one-sided basin the start lies (0 = none)", -1.0));

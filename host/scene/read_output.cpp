@@ -96,12 +96,14 @@ const layer_plan* find_layer(const std::vector<layer_plan>& layers, std::string_
     return nullptr;
 }
 
+/// Those of the question that the model has.
 std::vector<std::string> standard_layers(const scene& scene) {
+    const std::vector<layer_plan> available = available_layers(scene);
     std::vector<std::string> names;
     for (const std::string_view name : find_question(scene.question.kind)->standard_layers) {
-        if (name != "state") names.emplace_back(name);
+        if (find_layer(available, std::string(name)) != nullptr) names.emplace_back(name);
         if (name != "state") continue;
-        for (const layer_plan& layer : available_layers(scene)) {
+        for (const layer_plan& layer : available) {
             if (layer.role == layer_role::state) names.push_back(layer.description.name);
         }
     }

@@ -11,6 +11,7 @@
 #include "analysis/truth/real50.hpp"
 #include "host/cli/run_answer.hpp"
 #include "host/cli/side_files.hpp"
+#include "host/scene/error.hpp"
 #include "host/scene/grid.hpp"
 #include "tests/host/scratch_run.hpp"
 
@@ -295,6 +296,53 @@ TEST(orbit_sides, of_runners_end_at_their_unstable_gaits_at_every_speed) {
         EXPECT_FALSE(gait->is_stable());
         EXPECT_NEAR(end[1], gait->points[1], 1e-12);  // asked: extents to 1e-12
     }
+}
+
+// models/raibert_hopper.md: E -> gain E exp(-E) has its fixed point at ln(gain), multiplier 1 -
+// ln(gain), and all energies above 0 tend to it; the model's certificate names no points
+TEST(orbit_sides, of_the_pneumatic_maps_fixed_point_reach_down_to_rest) {
+    const scene scene = parse_scene(R"([scene]
+title = "Energies"
+[model]
+name = "raibert_pneumatic_simple"
+[grid]
+section = "energy"
+[[grid.axis]]
+name = "energy"
+min = 0.001
+max = 4.0
+cells = 50
+[[grid.axis]]
+name = "gain"
+min = 1.5
+max = 7.0
+cells = 12
+[question]
+kind = "one_sided"
+)",
+                                    "scene.toml");
+    const side_table table = sides_of(scene, plan_labels(scene));
+    ASSERT_EQ(table.orbits.size(), 12u);
+    for (const sided_orbit& orbit : table.orbits) {
+        const double energy = std::log(value_of(scene.axes[1], orbit.point));
+        EXPECT_NEAR(orbit.state[0], energy, 1e-14);
+        EXPECT_NEAR(orbit.sides[0].extent, energy, 1e-12);
+        EXPECT_TRUE(orbit.sides[0].is_bounded);
+        EXPECT_FALSE(orbit.sides[1].is_bounded);
+        for (const orbit_side& side : orbit.sides) {
+            EXPECT_EQ(side.kind, side_kind::attracting);
+            EXPECT_NEAR(side.exponent, 1.0, 1e-4);  // a fit at 1e-6 and 1e-5 of the scale
+            // |P(x) - x| = ln(gain) d; the exponent's error enters times ln(1e6)
+            EXPECT_NEAR(side.coefficient, energy, 1e-3 * energy);
+        }
+    }
+}
+
+// its basin is an interval of one column only on a map of one column
+TEST(orbit_sides, are_no_layer_of_maps_with_more_than_one_column) {
+    EXPECT_THROW(scene_of("ghigliazza2005_basins.toml",
+                          {"question.kind=\"one_sided\"", "output.layers=[\"immediate\"]"}),
+                 scene_error);
 }
 
 /// Lines of a text file.

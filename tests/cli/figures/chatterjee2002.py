@@ -114,11 +114,17 @@ def labels():
     immediate, = layers("one_sided_hopper", "immediate")
     holds("the immediate basin of alpha*_1 ends at r_1(1)", immediate[:2, 0] == 2)
     holds("and not later", immediate[2:, 0] != 2)
+    extent, kind = layers("one_sided_hopper_sides", "extent", "kind")
+    near("its extent is r_1(1)", extent[0, 0, 1], 0.0159187, 5e-8)
+    holds("it repels to the left and attracts to the right", kind[0, 0] == [2, 0])
     for mass_ratio, is_whole in ((0.1034, True), (0.1036, False), (9.66, False), (9.672, True)):
         run("run", "one_sided_hopper", no_audit, "grid.axis.0.min=4.4935", "grid.axis.0.max=6.2831",
             "grid.axis.0.cells=4000", *cells_around(1, mass_ratio, 1e-9))
         immediate, = layers("one_sided_hopper", "immediate")
         holds(f"the whole branch is trapped at M = {mass_ratio}: {is_whole}", (immediate == 2).all() == is_whole)
+        extent, = layers("one_sided_hopper_sides", "extent")
+        whole = 2 * math.pi - lossless.points[1]
+        holds(f"so is its extent at M = {mass_ratio}", (abs(extent[0, 0, 1] - whole) < 1e-12) == is_whole)
 
     run("run", "quickstart", no_audit, "grid.axis.0.cells=300", "grid.axis.1.cells=31", "output.tile=[64, 64]")
     alpha, mass_ratio, label = layers("quickstart", "liftoff_speed", "mass_ratio", "label")
