@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Which registers, stack and spills does every GPU kernel need? Compiles all units (no GPU is needed) and
 # writes one JSON line per kernel, with nvcc's processor time per unit, to bench/results/kernel_resources.jsonl, in
-# the place of those of that architecture.
+# the place of those of that architecture and model.
 # Usage: kernel_resources.sh [ARCH (sm_90)] [MODEL ...]
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -40,5 +40,6 @@ for model in "$@"; do
     for kind in kernels tangents; do measure "$model" "$kind"; done
 done
 results=$root/bench/results/kernel_resources.jsonl
-grep -v "\"arch\": \"$arch\"" "$results" >"$work/others" || true
+cp "$results" "$work/others"
+for model in "$@"; do sed -i "/\"arch\": \"$arch\", \"model\": \"$model\"/d" "$work/others"; done
 cat "$work/others" "$work/lines" >"$results"
