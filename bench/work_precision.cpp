@@ -1,10 +1,12 @@
 // What does accuracy cost? Per model, one return of the same starts by every method, tolerance and
 // precision offered: microseconds against error of state and time, share of wrong outcomes, and
-// drift of what the model conserves (a runner's speed).
+// drift of what a return conserves (energy with what impacts took from it; a runner's speed). Then
+// whole orbits of a scene: cells per second against the share of wrong labels (label_curves.hpp).
 //
 // Kernels (all backends; a ladder of tolerances where flows are integrated), single orbits in
 // double-double and 50 digits, and the yardsticks of bench/systems/. Errors are measured against 50
 // digits; bench/draw_work_precision.py draws the lines that this prints.
+#include "bench/kernel_drifts.hpp"
 #include "bench/known_returns.hpp"
 #include "bench/label_curves.hpp"
 #include "bench/report.hpp"
@@ -119,6 +121,7 @@ int main(int argc, char** argv) {
     for (const yardstick_case& one : cases) {
         if (is_wanted(one.name)) run(one);
     }
+    put_kernel_drifts(is_wanted);
     for (const labelled_scene& one : labelled_scenes()) {
         if (is_wanted(one.name)) put_label_curves(one);
     }
