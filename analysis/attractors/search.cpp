@@ -152,7 +152,7 @@ private:
     /// The proved trap of one point of a cycle, or the checked one where there is no proof.
     void add_trap(found_attractor& found, const trap_site& site) const {
         constexpr int longest_proved = 16;
-        if (!limits_.is_quick && site.period <= longest_proved) {
+        if (limits_.wants_proofs && site.period <= longest_proved) {
             std::array<bool, most_columns> is_fixed{};
             for (std::size_t c = 0; c < n_; ++c) {
                 is_fixed[c] =

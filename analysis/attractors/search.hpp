@@ -40,6 +40,7 @@ struct search_limits {
     int longest_period = 64;
     int most_attempts = 64;  // orbits looked at that turn out to be nothing new
     bool wants_unstable = false;
+    bool wants_proofs = true;  // of traps, where enclosures can give one
     bool is_quick = false;  // for many points: traps and samples need not be as large as can be
 };
 

@@ -124,7 +124,9 @@ label_plan plan_by_period(const scene& scene) {
     }
     add_own_labels(scene, plan);
     const auto points = std::make_shared<const plan_points>(scene, plan.point_axes);
-    const search_limits limits = limits_of(scene, points->size());
+    // a proof (0.2 s) is not worth its while for the one orbit that a cell's trap serves
+    search_limits limits = limits_of(scene, points->size());
+    limits.wants_proofs = false;
     const period_labels labels(plan.attractors.empty() ? 0 : plan.attractors.back().label,
                                limits.longest_period);
     labels.add_rows(plan);

@@ -69,6 +69,7 @@ search_limits limits_of(const scene& scene, std::size_t n_points) {
     limits.longest_period = static_cast<int>(scene.question.number("longest_period", 64.0));
     limits.wants_unstable = n_points == 1;
     limits.is_quick = n_points > 64;
+    limits.wants_proofs = !limits.is_quick;
     return limits;
 }
 

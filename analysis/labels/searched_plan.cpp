@@ -4,6 +4,7 @@
 #include "analysis/labels/label_colours.hpp"
 #include "analysis/labels/own_labels.hpp"
 #include "analysis/labels/point_search.hpp"
+#include "host/run/no_ellipsoid.hpp"
 #include "host/scene/grid.hpp"
 
 #include <fmt/format.h>
@@ -136,11 +137,8 @@ public:
         add_rows();
         std::size_t most = 0;
         for (const attractor_search& at : found_.at) most = std::max(most, n_traps(at));
-        trap_ellipsoid nothing{};  // holds no state: its square is never below 1
-        nothing.n_columns = 1;
-        nothing.shape[0] = std::nan("");
         plan_.n_ellipsoids = static_cast<int>(most);
-        plan_.ellipsoids.assign(most * found_.at.size(), nothing);
+        plan_.ellipsoids.assign(most * found_.at.size(), no_ellipsoid());
         for (std::size_t point = 0; point < found_.at.size(); ++point) fill_point(point, most);
     }
 

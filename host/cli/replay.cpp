@@ -1,5 +1,5 @@
 // hopscotch replay FILE.h5 --cell i,j: one cell once more, with every event, in every precision.
-#include "analysis/labels/plan.hpp"
+#include "analysis/labels/plan_of_map.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/sweep_point.hpp"
 #include "host/cli/text_output.hpp"
@@ -7,7 +7,6 @@
 #include "host/cli/usage_error.hpp"
 #include "host/run/attributes.hpp"
 #include "host/run/audit.hpp"
-#include "host/run/open_cells.hpp"
 #include "host/run/requests.hpp"
 #include "host/scene/diagram_grid.hpp"
 #include "host/run/truth_orbits.hpp"
@@ -121,7 +120,8 @@ int replay(const replay_arguments& given) {
                         given.file, scene.info().name));
     }
     const std::vector<std::uint64_t> coordinates = coordinates_in(scene, given.cell);
-    label_plan plan = plan_labels(scene, cells_of(map.attribute(searched_cells)));
+    auto [plan, note] = plan_of_map(scene, map);
+    if (!note.empty()) fmt::print(stderr, "hopscotch: {}\n", note);
     if (plan.of_cell) plan = plan.of_cell(coordinates);
     const owned_row row = row_of(scene, plan, coordinates);
     print_events(scene, row, given);

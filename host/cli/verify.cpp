@@ -1,5 +1,6 @@
 // hopscotch verify FILE.h5: is the file what was computed, and was that right?
 #include "analysis/labels/plan.hpp"
+#include "analysis/labels/plan_of_map.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/sweep_point.hpp"
 #include "host/run/attributes.hpp"
@@ -23,7 +24,15 @@ struct verify_arguments {
     std::string point;
     std::uint64_t n_cells = 0;
     std::uint64_t seed = 0;
+    bool searches = false;
 };
+
+label_plan plan_for(const verify_arguments& given, const scene& scene, const map_reader& map) {
+    if (given.searches) return plan_labels(scene, cells_of(map.attribute(searched_cells)));
+    plan_with_note found = plan_of_map(scene, map);
+    if (!found.note.empty()) fmt::print(stderr, "hopscotch: {}\n", found.note);
+    return std::move(found.plan);
+}
 
 void recompute(const verify_arguments& given) {
     const map_reader map(given.file);
@@ -32,7 +41,7 @@ void recompute(const verify_arguments& given) {
         fmt::print("cells recomputed  0 (an orbit diagram is checked by its sums)\n");
         return;
     }
-    const label_plan plan = plan_labels(scene, cells_of(map.attribute(searched_cells)));
+    const label_plan plan = plan_for(given, scene, map);
     const audit_report report = audit(
         scene, plan, [&](std::uint64_t tile) { return map.tile(tile); }, given.n_cells, given.seed);
     fmt::print("cells recomputed  {} ({})\n", report.n_cells,
@@ -52,12 +61,18 @@ void recompute(const verify_arguments& given) {
     }
 }
 
+/// A map has its hash from the moment it is packed.
+std::string hash_of(const map_reader& map) {
+    return map.is_finished_map() ? map.attribute("hash")
+                                 : "none yet (all tiles are there, the run is not finished)";
+}
+
 int verify(const verify_arguments& given) {
     const std::vector<map_problem> problems = verify_file(given.file);
     for (const map_problem& problem : problems) fmt::print(stderr, "hopscotch: {}\n", problem.text);
     if (!problems.empty()) return exit_store;
     fmt::print("hash              {}\nchecksums         all tiles as computed\n",
-               map_reader(given.file).attribute("hash"));
+               hash_of(map_reader(given.file)));
     if (given.n_cells > 0) recompute(given);
     return exit_done;
 }
@@ -104,6 +119,8 @@ void add_verify(CLI::App& program, int& exit_code) {
                         "Random cells to recompute in higher precision (0)");
     command->add_option("--seed", given->seed,
                         "Which random cells; 0 for those of the run's own audit (0)");
+    command->add_flag("--search", given->searches,
+                      "Search attractors anew instead of reading the map's");
     command->callback([given, &exit_code] {
         const bool is_whole_sweep = given->point.empty() && !sweep_directory(given->file).empty();
         if (!is_whole_sweep) given->file = chosen_map(given->file, given->point);

@@ -35,6 +35,8 @@ public:
         add(set.label);
         add(set.cover.lowest());
         add(set.cover.highest());
+        add(set.cover.boxes_along());
+        add(set.cover.box_places());
     }
     void add(const attractor_row& row) {
         add(row.label);

@@ -7,6 +7,7 @@
 #include "host/run/open_cells.hpp"
 #include "host/run/orbit_diagram.hpp"
 #include "host/run/plan_digest.hpp"
+#include "host/run/plan_tables.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/stop_condition.hpp"
 #include "host/run/thread_limit.hpp"
@@ -85,7 +86,9 @@ void finish_map(const scene& scene, const label_plan& plan, const run_hooks& hoo
         attributes.emplace_back("conserved_columns", conserved_names(scene, plan));
     }
     if (report.gain.n_labelled > 0) attributes.emplace_back("trap_gain", text_of(report.gain));
-    run.finish({attributes, report.attractors, plan.point_columns});
+    map_summary summary{attributes, report.attractors, plan.point_columns, {}};
+    if (auto traps = tables_of(scene, plan)) summary.groups.push_back(std::move(*traps));
+    run.finish(summary);
     report.is_finished = true;
 }
 

@@ -7,6 +7,7 @@
 namespace hopscotch {
 namespace {
 
+constexpr std::uint64_t spare = 2;  // boxes beyond the hull, on either side
 constexpr std::uint64_t outside = ~std::uint64_t{0};
 
 /// As many boxes along every column as leave several samples to each, were the set to fill its
@@ -46,20 +47,47 @@ state_cover::state_cover(std::span<const double> samples, int n_columns)
     boxes_.erase(std::unique(boxes_.begin(), boxes_.end()), boxes_.end());
 }
 
+state_cover::state_cover(std::span<const double> lowest, std::span<const double> highest,
+                         std::uint64_t boxes_along, std::span<const double> box_places)
+    : n_columns_(static_cast<int>(lowest.size())),
+      boxes_along_(boxes_along),
+      lowest_(lowest.begin(), lowest.end()),
+      highest_(highest.begin(), highest.end()) {
+    for (std::size_t i = 0; i < box_places.size(); i += lowest.size()) {
+        std::uint64_t key = 0;
+        for (const double place : box_places.subspan(i, lowest.size())) {
+            key = key * places_along() + static_cast<std::uint64_t>(place);
+        }
+        boxes_.push_back(key);
+    }
+}
+
+std::vector<double> state_cover::box_places() const {
+    const auto n = static_cast<std::size_t>(n_columns_);
+    std::vector<double> places(boxes_.size() * n);
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+        std::uint64_t key = boxes_[i];
+        for (std::size_t c = n; c-- > 0; key /= places_along()) {
+            places[i * n + c] = static_cast<double>(key % places_along());
+        }
+    }
+    return places;
+}
+
+std::uint64_t state_cover::places_along() const { return boxes_along_ + 2 * spare + 1; }
+
 std::uint64_t state_cover::box_of(std::span<const double> state, std::span<const int> shift) const {
-    constexpr double spare = 2.0;
     std::uint64_t key = 0;
     for (std::size_t c = 0; c < state.size(); ++c) {
         const double width = highest_[c] - lowest_[c];
-        double place = spare;
+        double place = static_cast<double>(spare);
         if (width > 0.0) {
             place +=
                 std::floor((state[c] - lowest_[c]) / width * static_cast<double>(boxes_along_));
         }
         place += static_cast<double>(shift[c]);
-        const double along = static_cast<double>(boxes_along_) + 2.0 * spare + 1.0;
-        if (!(place >= 0.0 && place < along)) return outside;
-        key = key * static_cast<std::uint64_t>(along) + static_cast<std::uint64_t>(place);
+        if (!(place >= 0.0 && place < static_cast<double>(places_along()))) return outside;
+        key = key * places_along() + static_cast<std::uint64_t>(place);
     }
     return key;
 }

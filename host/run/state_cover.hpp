@@ -14,6 +14,10 @@ public:
     /// \param samples  [sample][column]; columns that hold one value only are not looked at
     state_cover(std::span<const double> samples, int n_columns);
 
+    /// From what the accessors below have told.
+    state_cover(std::span<const double> lowest, std::span<const double> highest,
+                std::uint64_t boxes_along, std::span<const double> box_places);
+
     bool holds(std::span<const double> state) const;
     bool is_empty() const { return boxes_.empty(); }
 
@@ -21,7 +25,13 @@ public:
     std::span<const double> lowest() const { return lowest_; }
     std::span<const double> highest() const { return highest_; }
 
+    std::uint64_t boxes_along() const { return boxes_along_; }
+    std::size_t n_boxes() const { return boxes_.size(); }
+    /// Every box by its place along each column, [box][column]; whole numbers from 0, boxes rising.
+    std::vector<double> box_places() const;
+
 private:
+    std::uint64_t places_along() const;
     std::uint64_t box_of(std::span<const double> state, std::span<const int> shift) const;
 
     int n_columns_ = 0;

@@ -3,6 +3,7 @@
 
 #include "host/map/rows.hpp"
 #include "host/run/labelled_run.hpp"
+#include "host/run/no_ellipsoid.hpp"
 #include "host/run/requests.hpp"
 #include "host/run/state_rule.hpp"
 #include "host/run/surveys.hpp"
@@ -190,7 +191,6 @@ layer_buffers compute_layers(const tile_job& job, const label_plan& plan,
 /// Cells of one parameter point: their coordinates and places.
 struct cell_group {
     std::vector<std::uint64_t> first;   // coordinates of the first one
-    std::vector<std::uint64_t> cells;   // index in the map
     std::vector<std::uint64_t> places;  // index among all cells
 };
 
@@ -200,8 +200,7 @@ std::vector<cell_group> groups_of(const scene& scene, const label_plan& plan,
     for (std::uint64_t place = 0; place < cells.size(); ++place) {
         const std::vector<std::uint64_t> coordinates = coordinates_of(scene, cells[place]);
         cell_group& group = groups[point_index(scene, plan, coordinates)];
-        if (group.cells.empty()) group.first = coordinates;
-        group.cells.push_back(cells[place]);
+        if (group.places.empty()) group.first = coordinates;
         group.places.push_back(place);
     }
     std::vector<cell_group> result;
@@ -209,25 +208,45 @@ std::vector<cell_group> groups_of(const scene& scene, const label_plan& plan,
     return result;
 }
 
-/// Point by point, each with a plan of its own.
-layer_buffers compute_by_point(const tile_job& job, const std::vector<std::uint64_t>& all,
-                               lane_statistics& lanes) {
-    layer_buffers buffers;
-    for (const layer_plan& layer : job.layers) {
-        buffers.emplace_back(all.size() * bytes_of(layer.description.type));
+/// The plans of several points as one: what the first calls its only point is point 0, and so on.
+label_plan joined(const label_plan& whole, const std::vector<label_plan>& plans) {
+    label_plan result;
+    result.decided_by = whole.decided_by;
+    result.died_label = whole.died_label;
+    result.attractors = whole.attractors;
+    for (const label_plan& plan : plans) {
+        result.n_ellipsoids = std::max(result.n_ellipsoids, plan.n_ellipsoids);
     }
-    for (const cell_group& group : groups_of(job.what, job.plan, all)) {
-        const label_plan plan = job.plan.of_cell(group.first);
-        cell_request request = request_of(job.what, plan, group.cells);
-        const layer_buffers found = compute_layers(job, plan, group.cells, request.request, lanes);
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            const std::size_t size = bytes_of(job.layers[i].description.type);
-            for (std::size_t k = 0; k < group.places.size(); ++k) {
-                std::memcpy(&buffers[i][group.places[k] * size], &found[i][k * size], size);
-            }
+    for (std::size_t point = 0; point < plans.size(); ++point) {
+        const label_plan& plan = plans[point];
+        result.ellipsoids.insert(result.ellipsoids.end(), plan.ellipsoids.begin(),
+                                 plan.ellipsoids.end());
+        result.ellipsoids.resize((point + 1) * static_cast<std::size_t>(result.n_ellipsoids),
+                                 no_ellipsoid());
+        for (chaotic_set set : plan.chaotic) {
+            set.point = point;
+            result.chaotic.push_back(std::move(set));
         }
     }
-    return buffers;
+    return result;
+}
+
+/// Every parameter point has a plan of its own; the cells of all points are computed together, so
+/// that lanes are full.
+layer_buffers compute_by_point(const tile_job& job, const std::vector<std::uint64_t>& all,
+                               lane_statistics& lanes) {
+    std::vector<label_plan> plans;
+    std::vector<double> point_of(all.size());
+    for (const cell_group& group : groups_of(job.what, job.plan, all)) {
+        for (const std::uint64_t place : group.places) {
+            point_of[place] = static_cast<double>(plans.size());
+        }
+        plans.push_back(job.plan.of_cell(group.first));
+    }
+    const label_plan plan = joined(job.plan, plans);
+    cell_request request = request_of(job.what, plan, all);
+    request.request.trap_point = {point_of.data(), 1, point_of.size()};
+    return compute_layers(job, plan, all, request.request, lanes);
 }
 
 /// The cells of a box, in its C order, by index in the map.

@@ -160,6 +160,11 @@ void hdf5_file::write_chunk(const std::string& path, const shape_type& origin,
           path + " cannot be written");
 }
 
+void hdf5_file::write_all(const std::string& path, std::span<const double> values) {
+    check(H5Dwrite(dataset(path), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+          path + " cannot be written");
+}
+
 bool hdf5_file::has_chunk(const std::string& path, const shape_type& origin) const {
     const std::vector<hsize_t> offset(origin.begin(), origin.end());
     hsize_t size = 0;

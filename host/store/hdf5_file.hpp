@@ -87,6 +87,8 @@ public:
     void make_dataset(const std::string& path, const virtual_dataset& dataset);
     bool is_virtual(const std::string& path) const;
     void let_go(const std::string& path);  // of a dataset that was used and needs much memory
+    /// All numbers of a chunked dataset, through HDF5's own filters; converted to its type.
+    void write_all(const std::string& path, std::span<const double> values);
     void write_chunk(const std::string& path, const shape_type& origin,
                      std::span<const std::byte> bytes);
     bool has_chunk(const std::string& path, const shape_type& origin) const;

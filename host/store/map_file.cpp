@@ -1,5 +1,6 @@
 #include "host/store/map_file.hpp"
 
+#include "host/store/group_file.hpp"
 #include "host/store/tile_file.hpp"
 
 #include <algorithm>
@@ -228,6 +229,7 @@ void write_description(hdf5_file& file, const map_description& map) {
     for (const axis& each : map.layout.axes) write_axis(file, each);
     for (const layer& each : map.layout.layers) write_layer(file, map, each);
     if (!map.attractors.empty()) write_attractors(file, map.attractors, map.point_columns);
+    for (const table_group& group : map.groups) write_group(file, group);
 }
 
 map_description read_description(hdf5_file& file) {

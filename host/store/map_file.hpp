@@ -1,5 +1,5 @@
 // The layout of a map on disk, written and read: axes as dimension scales, layers with CF
-// attributes, the groups /attractors and /tiles, global attributes. Everything but the layers'
+// attributes, the groups /attractors, /traps and /tiles, global attributes. Everything but the layers'
 // numbers, which map_run puts in as chunks. netCDF-4 readers, h5py, ParaView and MATLAB open it
 // without this project.
 //
@@ -8,12 +8,14 @@
 //                 computed", flag_values + flag_meanings of categorical layers
 //   /attractors   label name period trap share colour, points(label, point, column),
 //                 multipliers(label, multiplier, part); rows of unequal length end in NaN
+//   /traps        what labels rest on, see host/run/plan_tables.hpp
 //   /tiles        origin extent checksum of every tile; attribute compute_seconds; in a file whose
 //                 layers are virtual datasets over tile files also `directory`, where those lie
 #pragma once
 
 #include "host/map/hash.hpp"
 #include "host/map/layout.hpp"
+#include "host/map/table_group.hpp"
 #include "host/store/hdf5_file.hpp"
 
 #include <string>
@@ -27,6 +29,8 @@ struct map_description {
     attribute_list attributes;
     std::vector<attractor_row> attractors;
     std::vector<std::string> point_columns;
+
+    std::vector<table_group> groups{};  // written with the rest, read one by one
 
     /// Where the tile files lie, relative to the map file's folder, if the layers are virtual;
     /// empty where the map file holds the numbers itself.

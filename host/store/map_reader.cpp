@@ -2,6 +2,7 @@
 
 #include "host/map/numbers.hpp"
 #include "host/map/rows.hpp"
+#include "host/store/group_file.hpp"
 #include "host/store/map_file.hpp"
 #include "host/store/run_directory.hpp"
 #include "host/store/tile_file.hpp"
@@ -237,6 +238,12 @@ const std::vector<attractor_row>& map_reader::attractors() const { return self_-
 
 const std::vector<std::string>& map_reader::point_columns() const {
     return self_->map.point_columns;
+}
+
+std::optional<table_group> map_reader::group(const std::string& name) const {
+    const hdf5_guard guard;
+    if (!self_->file || !self_->file->has(name)) return std::nullopt;
+    return read_group(*self_->file, name);
 }
 
 bool map_reader::is_finished_map() const { return self_->file.has_value(); }

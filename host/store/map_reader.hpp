@@ -7,12 +7,14 @@
 #pragma once
 
 #include "host/map/layout.hpp"
+#include "host/map/table_group.hpp"
 #include "host/store/compressed_tile.hpp"
 #include "host/store/store_error.hpp"
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +43,9 @@ public:
     std::string attribute(std::string_view name) const;  // empty where there is none
     const std::vector<attractor_row>& attractors() const;
     const std::vector<std::string>& point_columns() const;
+
+    /// Tables of the file; none where it has no such group. \error store_error where it is damaged
+    std::optional<table_group> group(const std::string& name) const;
 
     /// True for a map file, false for a run directory.
     bool is_finished_map() const;

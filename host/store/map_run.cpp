@@ -186,7 +186,8 @@ std::vector<layer_sum> map_run::implementation::sums() const {
 }
 
 map_description map_run::implementation::description(const map_summary& summary) const {
-    map_description map{layout, options.attributes, summary.attractors, summary.point_columns};
+    map_description map{layout, options.attributes, summary.attractors, summary.point_columns,
+                        summary.groups};
     if (options.keeps_tiles) map.tile_directory = directory.filename().string();
     for (const auto& [name, value] : summary.attributes) set_attribute(map.attributes, name, value);
     set_attribute(map.attributes, "fingerprint", options.fingerprint);

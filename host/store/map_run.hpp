@@ -12,6 +12,7 @@
 
 #include "host/map/layout.hpp"
 #include "host/map/shard.hpp"
+#include "host/map/table_group.hpp"
 #include "host/store/compressed_tile.hpp"
 #include "host/store/store_error.hpp"
 
@@ -54,6 +55,7 @@ struct map_summary {
     attribute_list attributes{};  // added to, or replacing, those of the run
     std::vector<attractor_row> attractors{};
     std::vector<std::string> point_columns{};  // names of the columns of attractor_row::points
+    std::vector<table_group> groups{};
 };
 
 /// Name under which a run keeps what its labels depend on; tiles of runs that differ in it do not

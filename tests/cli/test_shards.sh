@@ -19,6 +19,8 @@ claim_exit "a shard out of time is resumable" 75 small_map -o map.h5 --shard 2/3
 claim_exit "what it lacks is said" 4 hopscotch merge map.h5
 claim_contains "and that it has begun" "shard 2/3 lacks 4 of 4, begun by process" err.txt
 claim_exit "it goes on" 0 small_map -o map.h5 --shard 2/3 --resume
+claim_exit "what is there can be verified before it is joined" 0 hopscotch verify map.h5
+claim_contains "and has no hash yet" "none yet (all tiles are there, the run is not finished)" out.txt
 claim_exit "shards are joined" 0 hopscotch merge map.h5
 claim_equal "into the map of one run" "$(hash_of one.json)" "$(hash_of map.json)"
 [ -s map.png ] || fail "with its picture" "no map.png"
