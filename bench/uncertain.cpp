@@ -54,7 +54,8 @@ void complain(const std::string& where, const cell_verdict& verdict) {
 
 /// Distances between the cells around a change.
 std::vector<double> steps_at(const scene& line, double at) {
-    double step = std::max(hard::ulp_of(at), displacement_of(at, 0.0, tolerance_of(line)) / 1024.0);
+    double step = std::max(
+        hard::ulp_of(at), displacement_of(line.axes[0].kind, at, 0.0, tolerance_of(line)) / 1024.0);
     std::vector<double> steps;
     for (int i = 0; i < 7; ++i, step *= 4.0) steps.push_back(step);
     return steps;

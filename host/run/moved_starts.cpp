@@ -32,14 +32,15 @@ bool can_move(const column_source& source) {
 
 }  // namespace
 
-double displacement_of(double x, double scale, double tolerance) {
+double displacement_of(axis_kind kind, double x, double scale, double tolerance) {
     const double size = std::max(std::abs(x), scale);
     const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
-    return std::max(16.0 * ulp, 100.0 * tolerance * (0.25 + size));
+    const double floor = kind == axis_kind::column ? 0.25 : 0.0;
+    return std::max(16.0 * ulp, 100.0 * tolerance * (floor + size));
 }
 
 double displacement_on(const scene_axis& axis, double x, double tolerance) {
-    return displacement_of(x, scale_of(axis), tolerance);
+    return displacement_of(axis.kind, x, scale_of(axis), tolerance);
 }
 
 double tolerance_of(const scene& scene) {
@@ -103,7 +104,7 @@ void moved_request::move_between_cells(const scene_axis& axis, double share) {
 
 void moved_request::move_fixed(const fixed_number& number, double sign) {
     move(source_of(number.kind, number.index), valid_for(number.kind, number.index),
-         [&](double x) { return sign * displacement_of(x, 0.0, tolerance_); });
+         [&](double x) { return sign * displacement_of(number.kind, x, 0.0, tolerance_); });
 }
 
 }  // namespace hopscotch

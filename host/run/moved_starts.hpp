@@ -12,9 +12,11 @@
 namespace hopscotch {
 
 /// How far a number moves: 16 ulp of the larger of |x| and `scale`, and where a flow is integrated
-/// to `tolerance` > 0 at least 100 (1/4 + that size) tolerances, ten times what a return may be off
-/// by (kernels/integrators/taylor.hpp).
-double displacement_of(double x, double scale, double tolerance);
+/// to `tolerance` > 0 at least 100 tolerances of that size, ten times what a return may be off by.
+/// The integrator's bound has a floor of 1/4 in the state's units (kernels/integrators/taylor.hpp):
+/// state columns move by 100 (1/4 + size) tolerances. Parameters have units of their own; such a
+/// floor would move a small one (an inertia of 2e-4) by far more than any error of the flow does.
+double displacement_of(axis_kind kind, double x, double scale, double tolerance);
 
 /// The same for a number on an axis. \param tolerance  of `tolerance_of`
 double displacement_on(const scene_axis& axis, double x, double tolerance);
