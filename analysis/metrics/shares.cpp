@@ -96,6 +96,17 @@ double error_from(const std::vector<double>& shares, std::uint64_t factor, std::
     return std::sqrt(sum / (n - 1.0)) / (rank == 1 ? std::sqrt(k) : k);
 }
 
+/// Of a line of cells: standard deviation of a class' share if each of its ends lies anywhere
+/// between two cells.
+double error_of_ends(const class_grid& grid, const index_box& box, std::size_t which) {
+    const class_index* cells = grid.row(0, 0);
+    double n_ends = 0.0;
+    for (std::uint64_t c = box[2].begin + 1; c < box[2].end; ++c) {
+        if ((cells[c - 1] == which) != (cells[c] == which)) n_ends += 1.0;
+    }
+    return std::sqrt(n_ends / 12.0) / static_cast<double>(box[2].size());
+}
+
 }  // namespace
 
 basin_shares shares_in(const class_grid& grid, const value_box& asked) {
@@ -127,6 +138,9 @@ basin_shares shares_in(const class_grid& grid, const value_box& asked) {
         if (result.n_decided == 0) continue;
         share.share = static_cast<double>(share.n_cells) / n;
         share.error = error_from(on_grids, grids.factor, grid.rank());
+        if (grid.rank() != 1) continue;
+        const double of_ends = error_of_ends(grid, box, k);
+        if (share.error < of_ends) share.error = of_ends;
     }
     return result;
 }

@@ -42,9 +42,10 @@ struct basin_shares {
 /// fewer where the box is small), each of which is a systematic sample of its own; their standard
 /// deviation is carried over to the whole grid, whose step h is k times shorter, as h^b with b =
 /// 1/2 for one axis and 1 for more: the slowest law there is, of a boundary that fills space or
-/// lies along the grid. So it errs on the large side, by 1.5 to 4 for smooth boundaries; a straight
-/// one along an axis at a multiple of 8 cells shows no error at all. Source: interpenetrating
-/// systematic samples, Cochran, Sampling Techniques (1977), chapter 8.
+/// lies along the grid. So it errs on the large side, by 1.5 to 4 for smooth boundaries. Along one
+/// axis it is at least that of boundaries which lie anywhere between their two cells; over more, a
+/// straight boundary along an axis at a multiple of 8 cells shows no error at all. Source:
+/// interpenetrating systematic samples, Cochran, Sampling Techniques (1977), chapter 8.
 ///
 /// \error store_error for a box without a cell
 basin_shares shares_in(const class_grid& grid, const value_box& box);

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace hopscotch::test {
@@ -42,6 +43,17 @@ TEST(metrics_shares, undecided_cells_are_left_out_and_bound_the_share) {
     EXPECT_DOUBLE_EQ(shares.classes[0].share, 0.5);
     EXPECT_DOUBLE_EQ(shares.classes[0].lowest, 0.4);
     EXPECT_DOUBLE_EQ(shares.classes[0].highest, 0.6);
+}
+
+TEST(metrics_shares, of_a_line_are_no_surer_than_the_places_of_its_boundaries) {
+    // both ends at multiples of 8 cells, so that all interleaved grids agree; an end that lies
+    // anywhere in a cell's width has the standard deviation 1 / sqrt(12) of it
+    const class_grid line =
+        metric_map({metric_axis("x", 0.0, 1.0, 160)}, 2,
+                   [](const std::vector<double>& x) { return x[0] > 0.05 && x[0] < 0.85 ? 1 : 2; });
+    const metrics::basin_shares shares = shares_in(line, value_box::whole(line));
+    EXPECT_DOUBLE_EQ(shares.classes[0].share, 0.8);
+    EXPECT_DOUBLE_EQ(shares.classes[0].error, std::sqrt(2.0 / 12.0) / 160.0);
 }
 
 TEST(metrics_shares, the_reference_box_is_taken_in_axis_values) {
