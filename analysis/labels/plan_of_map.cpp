@@ -36,12 +36,8 @@ std::optional<label_plan> stored_plan(const scene& scene, const map_reader& map)
     add_attractors(scene, map, plan);
     plan.point_columns = map.point_columns();
     plan.searched = cells_of(map.attribute(searched_cells));
-    const std::string digest = plan_digest(plan);
-    const bool is_as_written =
-        std::any_of(group->attributes.begin(), group->attributes.end(), [&](const auto& attribute) {
-            return attribute.first == "plan_digest" && attribute.second == digest;
-        });
-    if (!is_as_written) return std::nullopt;
+    const std::string* const written = group->attribute("plan_digest");
+    if (written == nullptr || *written != plan_digest(plan)) return std::nullopt;
     return plan;
 }
 

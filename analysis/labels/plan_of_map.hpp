@@ -1,4 +1,5 @@
-// The plan by which a map was labelled, for whoever looks at its cells again: `verify`, `replay`.
+// The plan by which a map was labelled, for whoever looks at its cells again: `verify`,
+// `replay`, `analyse` and the table of sides.
 #pragma once
 
 #include "host/run/label_plan.hpp"

@@ -1,16 +1,15 @@
 // hopscotch analyse FILE.h5: basin shares, boundaries and their dimension, distances; as a table
 // and as JSON.
-#include "analysis/labels/plan.hpp"
 #include "analysis/labels/point_search.hpp"
 #include "analysis/labels/slice_attractors.hpp"
 #include "host/cli/analysis_report.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/map_plan.hpp"
 #include "host/cli/side_files.hpp"
 #include "host/cli/sweep_point.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/cli/usage_error.hpp"
 #include "host/run/attributes.hpp"
-#include "host/run/open_cells.hpp"
 
 #include <charconv>
 #include <filesystem>
@@ -92,7 +91,7 @@ int analyse(const analyse_arguments& given) {
         wish.plane = plane_of(*scene);
         const std::vector<std::size_t> axes = axes_of_points(*scene);
         if (is_over_parameters(*scene, axes)) {
-            plan = plan_labels(*scene, cells_of(map.attribute(searched_cells)));
+            plan = told_plan(*scene, map);
             wish.slices = slices_of(*scene, plan, axes, wish.plane);
         }
     }

@@ -1,6 +1,6 @@
 // hopscotch replay FILE.h5 --cell i,j: one cell once more, with every event, in every precision.
-#include "analysis/labels/plan_of_map.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/map_plan.hpp"
 #include "host/cli/sweep_point.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/cli/trace_writer.hpp"
@@ -120,8 +120,7 @@ int replay(const replay_arguments& given) {
                         given.file, scene.info().name));
     }
     const std::vector<std::uint64_t> coordinates = coordinates_in(scene, given.cell);
-    auto [plan, note] = plan_of_map(scene, map);
-    if (!note.empty()) fmt::print(stderr, "hopscotch: {}\n", note);
+    label_plan plan = told_plan(scene, map);
     if (plan.of_cell) plan = plan.of_cell(coordinates);
     const owned_row row = row_of(scene, plan, coordinates);
     print_events(scene, row, given);

@@ -1,11 +1,10 @@
 #include "host/cli/side_files.hpp"
 
-#include "analysis/labels/plan.hpp"
 #include "analysis/metrics/read_classes.hpp"
+#include "host/cli/map_plan.hpp"
 #include "host/cli/text_output.hpp"
 #include "host/map/numbers.hpp"
 #include "host/run/attributes.hpp"
-#include "host/run/open_cells.hpp"
 #include "host/scene/grid.hpp"
 #include "host/store/map_run.hpp"
 
@@ -265,7 +264,7 @@ std::string side_csv(const side_table& table, const scene& scene) {
 std::string write_sides(const std::filesystem::path& file) {
     const map_reader map(file);
     const scene scene = scene_of(map);
-    const label_plan plan = plan_labels(scene, cells_of(map.attribute(searched_cells)));
+    const label_plan plan = told_plan(scene, map);
     side_table table = sides_of(scene, plan);
     if (table.orbits.empty()) return "";
     add_shares(table, scene, metrics::read_classes(map));

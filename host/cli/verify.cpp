@@ -1,7 +1,7 @@
 // hopscotch verify FILE.h5: is the file what was computed, and was that right?
 #include "analysis/labels/plan.hpp"
-#include "analysis/labels/plan_of_map.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/map_plan.hpp"
 #include "host/cli/sweep_point.hpp"
 #include "host/run/attributes.hpp"
 #include "host/run/open_cells.hpp"
@@ -29,9 +29,7 @@ struct verify_arguments {
 
 label_plan plan_for(const verify_arguments& given, const scene& scene, const map_reader& map) {
     if (given.searches) return plan_labels(scene, cells_of(map.attribute(searched_cells)));
-    plan_with_note found = plan_of_map(scene, map);
-    if (!found.note.empty()) fmt::print(stderr, "hopscotch: {}\n", found.note);
-    return std::move(found.plan);
+    return told_plan(scene, map);
 }
 
 void recompute(const verify_arguments& given) {

@@ -29,6 +29,13 @@ struct table_group {
     attribute_list attributes;
     std::vector<number_table> tables;
 
+    /// The attribute of that name, or null.
+    const std::string* attribute(std::string_view wanted) const {
+        for (const auto& [key, text] : attributes) {
+            if (key == wanted) return &text;
+        }
+        return nullptr;
+    }
     /// The table of that name, or null.
     const number_table* table(std::string_view wanted) const {
         for (const number_table& each : tables) {

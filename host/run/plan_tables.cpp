@@ -252,11 +252,10 @@ private:
     std::uint64_t n_columns_;
 };
 
-std::string attribute(const table_group& group, std::string_view name) {
-    for (const auto& [key, text] : group.attributes) {
-        if (key == name) return text;
-    }
-    misfit("attribute " + std::string(name));
+const std::string& attribute(const table_group& group, std::string_view name) {
+    const std::string* const text = group.attribute(name);
+    if (text == nullptr) misfit("attribute " + std::string(name));
+    return *text;
 }
 
 }  // namespace

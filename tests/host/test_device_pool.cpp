@@ -222,6 +222,23 @@ TEST(device_pool, no_device_is_an_error_at_once) {
     EXPECT_THROW(device_pool pool(runtime), device_error);
 }
 
+const char* const every_call[] = {"cudaGetDeviceProperties",
+                                  "cudaMalloc",
+                                  "cudaHostAlloc",
+                                  "cudaStreamCreateWithFlags",
+                                  "cudaMemcpyAsync to the device",
+                                  "cudaMemcpyAsync to the host",
+                                  "cudaMemsetAsync",
+                                  "cudaOccupancyMaxActiveBlocksPerMultiprocessor",
+                                  "cudaLaunchKernel",
+                                  "cudaStreamSynchronize"};
+
+std::string name_of_call(const testing::TestParamInfo<const char*>& call) {
+    std::string name = call.param;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+}
+
 class failing_call : public testing::TestWithParam<const char*> {};
 
 TEST_P(failing_call, is_named_and_leaves_nothing_behind) {
@@ -244,18 +261,7 @@ TEST_P(failing_call, is_named_and_leaves_nothing_behind) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(every, failing_call,
-                         testing::Values("cudaGetDeviceProperties", "cudaMalloc", "cudaHostAlloc",
-                                         "cudaStreamCreateWithFlags",
-                                         "cudaMemcpyAsync to the device",
-                                         "cudaMemcpyAsync to the host", "cudaMemsetAsync",
-                                         "cudaOccupancyMaxActiveBlocksPerMultiprocessor",
-                                         "cudaLaunchKernel", "cudaStreamSynchronize"),
-                         [](const auto& call) {
-                             std::string name = call.param;
-                             std::replace(name.begin(), name.end(), ' ', '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(every, failing_call, testing::ValuesIn(every_call), name_of_call);
 
 class failing_device : public testing::TestWithParam<const char*> {};
 
@@ -288,18 +294,7 @@ TEST_P(failing_device, leaves_its_pieces_to_the_others) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(every, failing_device,
-                         testing::Values("cudaGetDeviceProperties", "cudaMalloc", "cudaHostAlloc",
-                                         "cudaStreamCreateWithFlags",
-                                         "cudaMemcpyAsync to the device",
-                                         "cudaMemcpyAsync to the host", "cudaMemsetAsync",
-                                         "cudaOccupancyMaxActiveBlocksPerMultiprocessor",
-                                         "cudaLaunchKernel", "cudaStreamSynchronize"),
-                         [](const auto& call) {
-                             std::string name = call.param;
-                             std::replace(name.begin(), name.end(), ' ', '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(every, failing_device, testing::ValuesIn(every_call), name_of_call);
 
 TEST(device_pool, threads_that_wait_for_a_worker_go_on_when_a_device_fails) {
     for (const int lost : {0, -1}) {  // one of two, or both
